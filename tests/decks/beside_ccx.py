@@ -6,11 +6,13 @@
     tests/decks/beside_ccx.py --osculate PROGRAM --write docs/decks.md      all rows, and what is refused
 
 rows.txt has the decks, what they may differ by, and why. The decks are those of Debian's packages
-calculix-ccx-test and freecad-common (these begin with `freecad/`), ccx that of calculix-ccx. Both read the same deck, but for its requests of
+calculix-ccx-test and freecad-common (these begin with `freecad/`), and those of the folder own beside this file (`own/`), of what
+those do not have; ccx is that of calculix-ccx. Both read the same deck, but for its requests of
 output: at the end of each step the displacements of all nodes. What is compared is the state that
 either leaves at the end: the largest difference of a node's displacement over the largest displacement,
 likewise of its force (reaction and load), and the largest contact pressures; of decks that look for
-vibrations at their end the frequencies, of those that look for buckling loads the factors. Nodes of shells, beams and trusses, which have no cell of the
+vibrations at their end the frequencies, of those that look for buckling loads the factors. Nodes of shells, beams, trusses and of
+plane elements beside others, which have no cell of the
 solids that those become, are compared by the tables of displacements (.dat), all others by the result files (.frd). Seconds are those of the processor, of both cores together.
 """
 import argparse
@@ -47,6 +49,7 @@ class Collection(typing.NamedTuple):
 
 
 COLLECTIONS = (
+    Collection("own/", HERE / "own", "", "Own decks"),
     Collection("freecad/", pathlib.Path("/usr/share/freecad/Mod/Fem/femtest/data/calculix"), "freecad-common",
                "FreeCAD's decks"),
     Collection("", pathlib.Path("/usr/share/doc/calculix-ccx-test/examples/test"), "calculix-ccx-test",
@@ -94,13 +97,17 @@ def put(deck, folder):
 
 
 def nodes_of_lines(text):
-    """Of shells, beams and trusses, which become solids of which these are no part, and of springs."""
+    """Of shells, beams, trusses and of plane elements beside others, which become solids of which these are no part,
+    and of springs."""
     nodes, inside, element = set(), False, True
+    kinds = r"B3|S\d|T3D|SPRING|DASHPOT|GAP|MASS"
+    if re.search(r"^\*\s*element\b[^\n]*type\s*=\s*(C3D|B3|S\d|T3D)", text, re.I | re.M):
+        kinds += "|CPE|CPS|CAX"
     for line in text.splitlines():
         if line.startswith("**") or not line.strip():
             continue
         if line.startswith("*"):
-            inside = bool(re.match(r"\*\s*element\b[^\n]*type\s*=\s*(B3|S\d|T3D|SPRING|DASHPOT|GAP|MASS)", line, re.I))
+            inside = bool(re.match(rf"\*\s*element\b[^\n]*type\s*=\s*({kinds})", line, re.I))
             element = True
         elif inside:
             numbers = [int(word) for word in re.split(r"[,\s]+", line) if word.isdigit()]
@@ -404,16 +411,16 @@ def page(compared, options):
     version = subprocess.run([options.ccx, "-v"], capture_output=True, text=True).stdout
     version = (re.findall(r"\d+\.\d+", version) or ["?"])[0]
     text = [
-        "# Decks of CalculiX and FreeCAD", "",
+        "# Decks of CalculiX and FreeCAD, and own ones", "",
         f"The decks that come with CalculiX {version} (Debian's package calculix-ccx-test) and those by which FreeCAD tests what it",
-        "writes for CalculiX (freecad-common), in Osculate and in CalculiX. Both read the",
+        "writes for CalculiX (freecad-common), and own ones of what those do not have, in Osculate and in CalculiX. Both read the",
         "same deck; the state that either leaves at the end is compared. Displacements: largest difference at a node over the",
         "largest displacement; of decks that end with vibrations the same of their frequencies, of those with buckling loads the same of the factors. Forces: likewise, but CalculiX'",
         "have those of constraints (sections of shells, equations) as well. Pressure: of the largest contact pressures. Iterations and seconds (of the processor) are those",
         "of Osculate / CalculiX, which counts iterations of nonlinear steps alone. [rows.txt](../tests/decks/rows.txt) has what a",
         "deck may differ by, and why; its quick rows are a test.", "",
         "To make this page again:", "", "```",
-        f"apt install calculix-ccx {' '.join(collection.package for collection in reversed(COLLECTIONS))}",
+        f"apt install calculix-ccx {' '.join(collection.package for collection in reversed(COLLECTIONS) if collection.package)}",
         "tests/decks/beside_ccx.py --osculate build/release/bin/osculate --write docs/decks.md", "```", ""]
     for collection in reversed(COLLECTIONS):
         text += section(collection, compared, options)

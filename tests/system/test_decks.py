@@ -10,7 +10,7 @@ import sys
 import tempfile
 import unittest
 
-from test_answers import read_dat, read_vtu
+from test_answers import read_dat, read_frd, read_vtu
 
 PROGRAM = sys.argv[1]
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -205,6 +205,24 @@ class Decks(unittest.TestCase):
     def test_convert_writes_over_no_deck(self):
         self.assertEqual(self.run_program("convert", "column.inp", "-o", "column.inp").returncode, 2)
         self.assertEqual(self.run_program("convert", "column.yaml").returncode, 2)
+
+    def test_plane_elements_beside_solids_have_a_model_file_with_the_same_results(self):
+        for name, kinds in (("lame_and_block", {1, 10}), ("stress_shared", {4, 10}), ("all_kinds", {1, 7, 8, 9, 10})):
+            with self.subTest(name):
+                shutil.copy(ROOT / "tests" / "decks" / "own" / f"{name}.inp", self.folder)
+                done = self.run_program("convert", f"{name}.inp", "-o", f"{name}.yaml")
+                self.assertEqual(done.returncode, 0, done.stderr)
+                blocks = []
+                for source in (f"{name}.inp", f"{name}.yaml"):
+                    done = self.run_program("run", source, "-o", f"{source}.results")
+                    self.assertEqual(done.returncode, 0, done.stderr)
+                    _, elements, values = read_frd(os.path.join(self.folder, f"{source}.results", f"{name}.frd"))
+                    self.assertEqual({kind for kind, _ in elements.values()}, kinds)
+                    blocks.append(values)
+                self.assertEqual(*blocks)
+                done = self.run_program("convert", f"{name}.yaml", "-o", f"{name}_anew.inp")
+                self.assertEqual(done.returncode, 2)
+                self.assertIn("plane elements that were expanded are not written", done.stderr)
 
     def test_a_restart_goes_on_from_the_deck_before(self):
         done = self.run_program("ccx", "-i", "column")

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <set>
 
 #include "osculate/core/dense.hpp"
 #include "osculate/deck/body_moments.hpp"
@@ -156,10 +158,35 @@ void build_dynamics(const BuildContext<Dim>& c, const Step& step, std::vector<do
     out.gravity.push_back({step.dynamics || step.modal ? gravity[i] : before[i], gravity[i], {}});
 }
 
+namespace {
+
+/// By displacement of a node of plane elements beside solids: those that it leads in these, with
+/// their factors.
+using Led = std::multimap<model::Dof, std::pair<model::Dof, double>>;
+
+template <int Dim>
+Led led_displacements(const mesh::Mesh& mesh) {
+  std::set<Index> follow;
+  for (const mesh::Expanded& one : mesh.expanded)
+    if (one.follows) follow.insert(one.node);
+  Led led;
+  for (const mesh::Relation& relation : mesh.relations) {
+    if (relation.terms.size() != 2 || !follow.contains(relation.terms[0].node)) continue;
+    const auto &own = relation.terms[0], &lead = relation.terms[1];
+    if (!follow.contains(lead.node))
+      led.insert({Dim * lead.node + lead.direction,
+                  {Dim * own.node + own.direction, -lead.factor / own.factor}});
+  }
+  return led;
+}
+
+}  // namespace
+
 template <int Dim>
 void build_initial_velocity(BuildContext<Dim>& c) {
   const auto nodes = static_cast<Index>(c.model().reference.size());
   std::vector<std::pair<model::Dof, double>>& out = c.model().initial_velocity;
+  const Led led = led_displacements<Dim>(c.model().mesh);
   for (const Load& v : c.description.initial_velocity) {
     const auto rigid = c.rigid_index.find(v.on.value);
     const bool is_rigid = rigid != c.rigid_index.end();
@@ -184,8 +211,11 @@ void build_initial_velocity(BuildContext<Dim>& c) {
           throw core::InputError(v.on.mark, fmt::format("set '{}' has nodes of a rigid body; name "
                                                         "the rigid body instead",
                                                         v.on.value));
-        if (!c.takes_part(node)) throw c.idle_node(v.on, node);
-        out.emplace_back(Dim * node + motion_of<Dim>(component), v.values[i]->value);
+        const model::Dof dof = Dim * node + motion_of<Dim>(component);
+        if (!c.takes_part(node) && !led.contains(Dim * node)) throw c.idle_node(v.on, node);
+        out.emplace_back(dof, v.values[i]->value);
+        for (auto [of, end] = led.equal_range(dof); of != end; ++of)
+          out.emplace_back(of->second.first, of->second.second * v.values[i]->value);
       }
     }
   }

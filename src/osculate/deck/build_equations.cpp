@@ -151,10 +151,15 @@ std::vector<MarkedEquation> ties_beside(BuildContext<Dim>& c,
   if (c.description.ties.empty()) return ties;
   PrescribedCourses courses = prescribed_courses(c, until);
   const PrescribedCourses at_first = prescribed_courses(c, std::min<std::size_t>(until, 1));
-  std::set<Dof> given;
-  for (const model::Equation& equation : reduced(c, others, courses))
-    given.insert(equation.terms.front().dof);
-  add_ties(c, courses, at_first, std::move(given), ties);
+  std::set<Dof> given, led;
+  for (const model::Equation& equation : reduced(c, others, courses)) {
+    const Dof lead = equation.terms.front().dof;
+    given.insert(lead);
+    if (std::all_of(equation.terms.begin() + 1, equation.terms.end(),
+                    [&](const auto& term) { return courses.contains(term.dof); }))
+      led.insert(lead);
+  }
+  add_ties(c, {courses, at_first, led}, std::move(given), ties);
   return ties;
 }
 

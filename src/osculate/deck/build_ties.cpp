@@ -84,12 +84,6 @@ Mat<Dim, Dim> axes_of(const BuildContext<Dim>& c, Index node) {
                                                            : Mat<Dim, Dim>::Identity();
 }
 
-/// What the steps prescribe, and what the first one does.
-struct Prescribed {
-  const PrescribedCourses& ever;
-  const PrescribedCourses& at_first;
-};
-
 /// Displacements that are not tied since something else gives them.
 struct LeftOut {
   std::size_t prescribed = 0, given = 0, parted = 0;
@@ -97,7 +91,7 @@ struct LeftOut {
 
 template <int Dim>
 void add_equations(const BuildContext<Dim>& c, const Tie& tie, Index node, const Foot<Dim>& foot,
-                   const Prescribed& prescribed, std::set<model::Dof>& given, LeftOut& left,
+                   const TiesBeside& beside, std::set<model::Dof>& given, LeftOut& left,
                    std::vector<MarkedEquation>& all) {
   const Mat<Dim, Dim> axes = axes_of(c, node);
   for (int i = 0; i < Dim; ++i) {
@@ -112,11 +106,12 @@ void add_equations(const BuildContext<Dim>& c, const Tie& tie, Index node, const
       return std::abs(term.factor) <= rounding;
     });
     if (equation.terms.empty() || equation.terms.front().dof != own) continue;  // its own place
-    const bool master_moves = std::ranges::any_of(
-        equation.terms,
-        [&](const model::Equation::Term& term) { return !prescribed.ever.contains(term.dof); });
+    const bool master_moves =
+        std::ranges::any_of(equation.terms, [&](const model::Equation::Term& term) {
+          return !beside.ever.contains(term.dof) && !beside.led.contains(term.dof);
+        });
     // What a later step prescribes moves the master.
-    if (prescribed.at_first.contains(own) || (prescribed.ever.contains(own) && !master_moves)) {
+    if (beside.at_first.contains(own) || (beside.ever.contains(own) && !master_moves)) {
       ++left.prescribed;
       left.parted += master_moves;
     } else if (!given.insert(own).second) {
@@ -179,8 +174,7 @@ void adjust_ties(BuildContext<Dim>& c) {
 }
 
 template <int Dim>
-void add_ties(BuildContext<Dim>& c, const PrescribedCourses& ever,
-              const PrescribedCourses& at_first, std::set<model::Dof> given,
+void add_ties(BuildContext<Dim>& c, const TiesBeside& beside, std::set<model::Dof> given,
               std::vector<MarkedEquation>& all) {
   for (const Tie& tie : c.description.ties) {
     const TiedNodes<Dim> tied = tied_nodes(c, tie);
@@ -189,7 +183,7 @@ void add_ties(BuildContext<Dim>& c, const PrescribedCourses& ever,
       if (c.model().body_of_node[static_cast<std::size_t>(tied.nodes[k])] >= 0)
         left.given += Dim;
       else
-        add_equations(c, tie, tied.nodes[k], tied.feet[k], {ever, at_first}, given, left, all);
+        add_equations(c, tie, tied.nodes[k], tied.feet[k], beside, given, left, all);
     }
     tell(c, tie, tied, left);
   }
@@ -197,9 +191,9 @@ void add_ties(BuildContext<Dim>& c, const PrescribedCourses& ever,
 
 template void adjust_ties(BuildContext<2>&);
 template void adjust_ties(BuildContext<3>&);
-template void add_ties(BuildContext<2>&, const PrescribedCourses&, const PrescribedCourses&,
-                       std::set<model::Dof>, std::vector<MarkedEquation>&);
-template void add_ties(BuildContext<3>&, const PrescribedCourses&, const PrescribedCourses&,
-                       std::set<model::Dof>, std::vector<MarkedEquation>&);
+template void add_ties(BuildContext<2>&, const TiesBeside&, std::set<model::Dof>,
+                       std::vector<MarkedEquation>&);
+template void add_ties(BuildContext<3>&, const TiesBeside&, std::set<model::Dof>,
+                       std::vector<MarkedEquation>&);
 
 }  // namespace osculate::deck

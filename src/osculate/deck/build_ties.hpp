@@ -11,19 +11,25 @@ namespace osculate::deck {
 template <int Dim>
 void adjust_ties(BuildContext<Dim>& context);
 
+/// What keeps ties from moving a displacement, or from being moved by it.
+struct TiesBeside {
+  const PrescribedCourses& ever;      ///< what any step prescribes
+  const PrescribedCourses& at_first;  ///< what the first one does
+  const std::set<model::Dof>& led;    ///< what equations give by what is prescribed
+};
+
 /// Equations of the surfaces that are tied; says how many nodes are.
 ///
 /// Formula    u = sum N_k u_k : a node of the slave, and the shape functions of the master's facet
 ///            at the nearest place of it, in reference coordinates, no farther than the tolerance
-/// Input      ever, at_first: what any step prescribes, and what the first one does; `given`: what
-///            other equations give. Displacements of slave nodes that the first step prescribes, or
+/// Input      given: what other equations give. Displacements of slave nodes that the first step
+/// prescribes, or
 ///            that are given, are not tied; those of later steps move the master, where that is
 ///            free. Of several ties of a node the first counts
 /// Errors     core::InputError where nothing is near, or the master is rigid
 /// Tested by  tests/unit/deck/test_ties.cpp
 template <int Dim>
-void add_ties(BuildContext<Dim>& context, const PrescribedCourses& ever,
-              const PrescribedCourses& at_first, std::set<model::Dof> given,
+void add_ties(BuildContext<Dim>& context, const TiesBeside& beside, std::set<model::Dof> given,
               std::vector<MarkedEquation>& all);
 
 }  // namespace osculate::deck

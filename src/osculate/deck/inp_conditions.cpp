@@ -6,6 +6,7 @@
 
 #include "osculate/deck/inp_steps.hpp"
 #include "osculate/io/inp/loaded_sets.hpp"
+#include "osculate/io/inp/thin_sections.hpp"
 
 namespace osculate::deck {
 namespace {
@@ -80,6 +81,8 @@ void read_boundary(const InpReading& r, const Card& card) {
 void read_forces(const InpReading& r, const Card& card) {
   Conditions& forces = part_of(r, card).forces;
   const InpSaid said = begin_card(r, card, forces);
+  // beside sectors of axisymmetric elements all forces are those of whole rings, as in CalculiX
+  const double rings = r.m.mesh.sectors ? io::inp::sectors_of_ring : 1;
   for (const Line& line : io::inp::lines_of(r.m.deck, card)) {
     Fields fields(r.m.deck, line);
     const std::string& set_name = node_set_of(r.m, line, fields.next().value_or(""));
@@ -87,7 +90,7 @@ void read_forces(const InpReading& r, const Card& card) {
     const std::int32_t direction = fields.number("the direction");
     const std::vector<InpPlace> on = places_here(r.m, fields, set_name, direction);
     if (on.empty()) fields.fail("no shell or beam can take a moment here");
-    const double size = fields.real("the force");
+    const double size = fields.real("the force") / rings;
     for (const InpPlace& place : on) {
       if (!inp_has_direction(r.m, place.direction))
         fields.fail(

@@ -269,6 +269,8 @@ std::vector<std::string> sets_of_body(const InpModel& m, const Card& card) {
       sets.push_back(
           set_of(m, card.at, given->value,
                  {key == std::string_view("ELSET") ? SetKind::elements : SetKind::nodes}));
+  for (const std::string& set : sets)
+    refuse_layers_of_plane(m, card.at, set, PlaneNodes::both, "no part of a rigid body");
   if (sets.empty()) io::inp::fail(m.deck, card, "expected NSET= or ELSET=");
   return sets;
 }
@@ -284,6 +286,9 @@ SourceNode inp_rigid(InpModel& m) {
     if (moves_surface(m, kind_of_coupling(m, card)))
       moved.push_back(set_of(m, card.at, value_of(m, card, "SURFACE"),
                              {SetKind::surface, SetKind::node_surface}));
+    for (const std::string& set : moved)
+      refuse_layers_of_plane(m, card.at, set, PlaneNodes::both,
+                             "*KINEMATIC is not supported there");
     put_rigid(m, card, moved, rigid);
   }
   put_rotating_bodies(m, rigid);

@@ -88,7 +88,11 @@ SourceNode& pair_of_line(const InpModel& m, const Card& card, const Line& line, 
   const std::string master = io::inp::name_of(fields.next().value_or(""));
   if (slave.empty() || master.empty())
     fields.fail(fmt::format("*{}: expected two surfaces, slave and master", card.keyword));
-  return add_pair(m, line.at, slave, master, pairs, option_of(card, "TYPE") == "NODETOSURFACE");
+  SourceNode& pair =
+      add_pair(m, line.at, slave, master, pairs, option_of(card, "TYPE") == "NODETOSURFACE");
+  refuse_layers_of_plane(m, line.at, find(pair, "slave")->text, PlaneNodes::of_deck,
+                         "a surface of their nodes is not supported, name their edges (S1, ...)");
+  return pair;
 }
 
 /// Mean area of the facets of a set.

@@ -115,6 +115,8 @@ void put_pretension(InpModel& m, const Card& card, SourceNode& root) {
       inp_text(set_of(m, card.at, value_of(m, card, "SURFACE"), {SetKind::surface}), line));
   put(entry, "node", inp_text(node, line));
   const std::string surface = find(entry, "on")->text;
+  refuse_layers_of_plane(m, card.at, surface, PlaneNodes::of_solids,
+                         "*PRE-TENSION SECTION through them is not supported");
   Vec3 axis = Vec3::Zero();
   if (const auto lines = io::inp::lines_of(m.deck, card); !lines.empty()) {
     Fields fields(m.deck, lines[0]);
@@ -146,6 +148,8 @@ const Card& cyclic_tie(const InpModel& m, const Card& card) {
 
 void put_cyclic_symmetry(const InpModel& m, const Card& card, SourceNode& root) {
   const int line = line_of(card.at);
+  if (has_layers_of_plane(m))
+    io::inp::fail(m.deck, card, "plane elements become solids beside others: not supported here");
   const Card& tie = cyclic_tie(m, card);
   const Line& sides = only_line(m, tie, "two surfaces");
   Fields surfaces(m.deck, sides);
@@ -181,8 +185,11 @@ void put_ties(const InpModel& m, const Card& card, SourceNode& root) {
     if (slave.empty() || master.empty())
       fields.fail("*TIE: expected two surfaces, slave and master");
     SourceNode& tie = list_of(root, "ties", at).items.emplace_back(inp_map(at));
-    put(tie, "slave",
-        inp_text(set_of(m, line.at, slave, {SetKind::surface, SetKind::node_surface}), at));
+    const std::string& on = set_of(m, line.at, slave, {SetKind::surface, SetKind::node_surface});
+    refuse_layers_of_plane(m, line.at, on, PlaneNodes::both,
+                           "they follow the nodes of the deck and cannot be the slave of a *TIE "
+                           "(CalculiX does not tie them): make them the master");
+    put(tie, "slave", inp_text(on, at));
     put(tie, "master", inp_text(set_of(m, line.at, master, {SetKind::surface}), at));
     if (const auto* const given = io::inp::find_parameter(card, "POSITIONTOLERANCE")) {
       const double tolerance = Fields(m.deck, {given->value, card.at}).real("POSITION TOLERANCE");

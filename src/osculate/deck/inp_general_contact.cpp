@@ -251,6 +251,10 @@ SourceNode inp_general_contact(InpModel& m, const std::vector<InpInteraction>& i
     add_included(m, general, interactions, pairs);
     return pairs;
   }
+  if (has_layers_of_plane(m))
+    io::inp::fail(m.deck, *general.card,
+                  "plane elements become solids beside others, and ALL EXTERIOR would have their "
+                  "sides, too: name the pairs of surfaces");
   if (!general.included.empty())
     io::inp::fail(m.deck, general.included[0].at,
                   "*CONTACT INCLUSIONS: ALL EXTERIOR has all pairs of surfaces already");

@@ -62,7 +62,9 @@ std::string word_of(const std::string& name, bool file) {
 
 class Requests {
  public:
-  explicit Requests(InpModel& m) : m_(m) {}
+  /// Plane elements are written as they are unless there are shells or beams, as in CalculiX.
+  explicit Requests(InpModel& m)
+      : m_(m), as_given_(std::ranges::all_of(m.mesh.mesh.expanded, &mesh::Expanded::follows)) {}
 
   SourceNode translate() {
     for (const Card& card : m_.deck.cards) take(card);
@@ -96,7 +98,8 @@ class Requests {
     });
     if (thin.complete && !contact) return true;
     m_.notes.push_back(
-        fmt::format("OUTPUT=2D: the .frd file has the solids that shells and beams become: {}",
+        fmt::format("OUTPUT=2D: the .frd file has the solids that shells, beams and plane elements "
+                    "become: {}",
                     contact ? "results of contact are theirs"
                             : "layers and hollow sections have no "
                               "means here"));
@@ -203,7 +206,7 @@ class Requests {
   InpModel& m_;
   std::size_t step_ = 0;
   int every_ = 1;
-  bool as_given_ = false;  ///< OUTPUT=2D
+  bool as_given_;  ///< OUTPUT=2D
   std::array<bool, groups> fresh_{};
   std::array<std::vector<Wanted>, groups> wanted_;
   std::vector<Active> active_;

@@ -1,5 +1,6 @@
 #pragma once
 // The parts of the translation of an Abaqus or CalculiX deck into a model file; for inp_*.cpp.
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <set>
@@ -306,6 +307,14 @@ struct InpPlace {
 [[nodiscard]] inline bool inp_has_direction(const InpModel& m, int direction) {
   return inp_dimension(m) == 3 || direction <= 2 || direction == 6;
 }
+
+/// Whether plane elements became solids, beside others.
+[[nodiscard]] bool has_layers_of_plane(const InpModel& m);
+/// Nodes of the deck's plane elements, and those of the solids that they became.
+enum class PlaneNodes : std::uint8_t { of_deck, of_solids, both };
+/// Fails where a set has some of these.
+void refuse_layers_of_plane(const InpModel& m, io::inp::Place at, const std::string& set,
+                            PlaneNodes nodes, std::string_view what);
 
 /// Adds the knots of shells and beams to rigid bodies.
 void put_knots(InpModel& m, SourceNode& bodies);

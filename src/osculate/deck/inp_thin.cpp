@@ -30,6 +30,24 @@ int inp_dimension(const InpModel& m) {
   return 2;
 }
 
+bool has_layers_of_plane(const InpModel& m) {
+  return std::ranges::any_of(m.mesh.mesh.expanded, &mesh::Expanded::follows);
+}
+
+void refuse_layers_of_plane(const InpModel& m, io::inp::Place at, const std::string& set,
+                            PlaneNodes which, std::string_view what) {
+  std::set<Index> plane;
+  for (const mesh::Expanded& one : m.mesh.mesh.expanded)
+    if (one.follows)
+      plane.insert({which == PlaneNodes::of_deck ? one.of : one.node,
+                    which == PlaneNodes::of_solids ? one.node : one.of});
+  const std::vector<Index>& nodes = m.mesh.mesh.find_set(set)->nodes;
+  if (std::ranges::any_of(nodes, [&](Index node) { return plane.contains(node); }))
+    io::inp::fail(
+        m.deck, at,
+        fmt::format("'{}' is on plane elements, which become solids beside others: {}", set, what));
+}
+
 int highest_direction(const InpModel& m, const std::string& set) {
   const auto body = m.body_nodes.find(only_node(m, set));
   if (body == m.body_nodes.end()) {

@@ -162,6 +162,17 @@ void mark_used_nodes(InpModel& m, const SourceNode& root) {
     if (entry.key != "initial_temperature") mark_named_nodes(m, entry.value);
 }
 
+void tell_of_plane_elements(InpModel& m) {
+  if (has_layers_of_plane(m))
+    m.notes.emplace_back(
+        "plane elements beside others become solids of one layer, whose two sides move alike "
+        "(docs/inp.md)");
+  if (m.mesh.sectors)
+    m.notes.emplace_back(
+        "axisymmetric elements beside solids are sectors of 2 degrees: of the forces of *CLOAD and "
+        "of the thickness of plane elements a 180th acts, as in CalculiX");
+}
+
 std::string heading_of(const InpModel& m) {
   for (const Card& card : m.deck.cards)
     if (card.keyword == "HEADING" && !io::inp::lines_of(m.deck, card).empty())
@@ -189,6 +200,7 @@ TranslatedDeck translate_deck(const io::inp::Deck& deck) {
   for (const auto& [number, line] : m.mesh.missing)
     m.notes.push_back(
         fmt::format("line {}: node {} of a set does not exist, and is left out", line, number));
+  tell_of_plane_elements(m);
   for (const io::inp::DeckSet& set : m.mesh.sets)
     m.sets.emplace(std::pair(set.kind, io::inp::capitals(set.name)), set.set);
   TranslatedDeck out;

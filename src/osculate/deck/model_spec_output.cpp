@@ -224,9 +224,10 @@ BoundKeys<Output> output_keys() {
        frd_key(),
        dat_key(),
        may(&O::as_given, "shells_as_given",
-           boolean("MODEL.frd has shells and beams of a deck by its own elements and nodes, with "
-                   "means over their sections, as OUTPUT=2D of CalculiX; else, and where sections "
-                   "are hollow or of layers, the solids that they become.")
+           boolean("MODEL.frd has shells, beams and plane elements beside solids of a deck by its "
+                   "own elements and nodes, with means over their sections, as OUTPUT=2D of "
+                   "CalculiX; else, and where sections are hollow or of layers, the solids that "
+                   "they become.")
                .otherwise("false"))}};
 }
 

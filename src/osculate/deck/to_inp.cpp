@@ -118,8 +118,9 @@ InpMesh<Dim>::InpMesh(const Description& description, const model::BasicModel<Di
       table_(sides_table(model.mesh, cells_of(model), std::integral_constant<int, Dim>())),
       used_(model.mesh.nodes.size(), false) {
   if (!model.mesh.relations.empty())
-    throw core::InputError(description.mesh.mark,
-                           "shells, beams and trusses that were expanded are not written");
+    throw core::InputError(
+        description.mesh.mark,
+        "shells, beams, trusses and plane elements that were expanded are not written");
   std::set<std::int64_t> numbers, nodes;
   for (std::size_t n = 0; n < model.mesh.nodes.size(); ++n)
     own_numbers_ =

@@ -145,10 +145,10 @@ std::vector<cell::VolumeShape> judged_shapes(cell::CellType type) {
 /// Those at the points where a cell of second order is integrated fully.
 std::vector<cell::VolumeShape> shapes_at_points(cell::CellType type) {
   using enum cell::CellType;
-  const cell::Quadrature3D rule = type == tet10     ? cell::gauss_tetrahedron(2)
-                                  : type == wedge15 ? cell::gauss_wedge(2, 3)
-                                  : type == shell18 ? cell::gauss_hex(3, 2)
-                                                    : cell::gauss_hex(3);
+  const cell::Quadrature3D rule = type == tet10                       ? cell::gauss_tetrahedron(2)
+                                  : type == wedge6 || type == wedge15 ? cell::gauss_wedge(2, 3)
+                                  : type == shell18                   ? cell::gauss_hex(3, 2)
+                                                                      : cell::gauss_hex(3);
   std::vector<cell::VolumeShape> shapes;
   for (const Vec3& xi : rule.points) shapes.push_back(cell::volume_shape(type, xi));
   return shapes;
@@ -167,7 +167,8 @@ double smallest_jacobian(const Mesh& mesh, CellRef ref,
 }
 
 /// Volume cells that are inside out or flat; only cells with finite coordinates are judged. Those
-/// of second order may be so where they have no point of integration.
+/// of second order and those at the axis of a sector may be so where they have no point of
+/// integration.
 void check_volumes(const Mesh& mesh, std::vector<Finding>& findings) {
   Tally bad, folded;
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
@@ -179,6 +180,8 @@ void check_volumes(const Mesh& mesh, std::vector<Finding>& findings) {
     for (Index c = 0; c < block.size(); ++c) {
       const CellRef ref{static_cast<Index>(b), c};
       const double jacobian = smallest_jacobian(mesh, ref, shapes);
+      if (jacobian <= 0 && is_collapsed(mesh, ref) && smallest_jacobian(mesh, ref, points) > 0)
+        continue;
       if (jacobian <= 0)
         (curved && smallest_jacobian(mesh, ref, points) > 0 ? folded : bad)
             .add(fmt::format("{} (smallest Jacobian {:.3g})", cell_name(mesh, block, c), jacobian));
@@ -376,6 +379,16 @@ void check_sets(const Mesh& mesh, std::vector<Finding>& findings) {
 }
 
 }  // namespace
+
+bool is_collapsed(const Mesh& mesh, CellRef ref) {
+  if (mesh.expanded.empty()) return false;
+  const int corners = info_of(mesh, ref).corners;
+  const Index* const nodes = nodes_of(mesh, ref);
+  for (int k = 0; k < corners; ++k)
+    for (int j = k + 1; j < corners; ++j)
+      if (point(mesh, nodes[k]) == point(mesh, nodes[j])) return true;
+  return false;
+}
 
 double smallest_jacobian(const Mesh& mesh, CellRef ref) {
   return smallest_jacobian(mesh, ref, judged_shapes(block_of(mesh, ref).type));

@@ -48,5 +48,8 @@ using ContactSides = std::array<std::vector<bool>, 2>;
 
 /// Smallest Jacobian determinant of a volume cell over its nodes and their middle.
 [[nodiscard]] double smallest_jacobian(const Mesh& mesh, CellRef ref);
+/// Whether corners of a cell are at one place, as those of sectors are on their axis
+/// (Mesh::expanded); of other meshes such cells are none.
+[[nodiscard]] bool is_collapsed(const Mesh& mesh, CellRef ref);
 
 }  // namespace osculate::mesh

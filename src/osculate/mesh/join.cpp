@@ -75,7 +75,7 @@ void append_mesh(Mesh& mesh, const Mesh& part, const std::string& name,
     mesh.sets.push_back(std::move(set));
   };
   for (const Expanded& one : part.expanded)
-    mesh.expanded.push_back({first + one.node, first + one.of, one.height});
+    mesh.expanded.push_back({first + one.node, first + one.of, one.height, one.follows});
   for (Relation relation : part.relations) {
     for (Relation::Term& term : relation.terms) term.node += first;
     mesh.relations.push_back(std::move(relation));

@@ -53,13 +53,14 @@ struct Relation {
   std::vector<Term> terms;
 };
 
-/// A node that one of a shell or beam was expanded to (io::read_inp): it has the temperature of
-/// that one, whose force it is a part of.
+/// A node that one of a shell, a beam or a plane element was expanded to (io::read_inp): it has the
+/// temperature of that one, whose force it is a part of.
 struct Expanded {
   Index node;
   Index of;     ///< what the file has
   Vec2 height;  ///< from there along the normal of a shell or the second axis of a beam, and along
                 ///< the first axis of a beam
+  bool follows = false;  ///< of plane elements: it moves with that one, not that one as the mean
 };
 
 /// Whether names differ at most in capital and small letters (of ASCII).

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <ranges>
+#include <set>
 
 namespace osculate::mesh {
 namespace {
@@ -88,7 +89,11 @@ ThinElements thin_elements(const Mesh& mesh) {
   ThinElements out;
   if (mesh.expanded.empty()) return out;
   std::vector<Index> node_of(mesh.nodes.size(), -1);
-  for (const Expanded& one : mesh.expanded) node_of[static_cast<std::size_t>(one.node)] = one.of;
+  std::set<Index> leading;
+  for (const Expanded& one : mesh.expanded) {
+    node_of[static_cast<std::size_t>(one.node)] = one.of;
+    if (one.follows) leading.insert(one.of);
+  }
   std::map<Index, Gathered> gathered;
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
     const Block& block = mesh.blocks[b];
@@ -114,7 +119,7 @@ ThinElements thin_elements(const Mesh& mesh) {
       out.complete = false;
       continue;
     }
-    SectionMean& mean = out.means.emplace_back(SectionMean{node, {}});
+    SectionMean& mean = out.means.emplace_back(SectionMean{node, {}, leading.contains(node)});
     for (const auto& [n, sum] : all.sum) mean.shares.emplace_back(n, sum / all.count);
   }
   return out;

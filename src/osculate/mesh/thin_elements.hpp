@@ -6,7 +6,8 @@
 
 namespace osculate::mesh {
 
-/// A shell or beam of a deck that has become a cell of the mesh (io::read_inp): as the deck has it.
+/// A shell, beam or plane element of a deck that has become a cell of the mesh (io::read_inp): as
+/// the deck has it.
 struct ThinElement {
   CellRef cell;
   cell::CellType type;       ///< line2, line3, tri3, tri6, quad4, quad8
@@ -17,6 +18,7 @@ struct ThinElement {
 struct SectionMean {
   Index node;
   std::vector<std::pair<Index, double>> shares;
+  bool leads = false;  ///< a node of plane elements: the displacement is its own
 };
 
 struct ThinElements {
@@ -27,8 +29,8 @@ struct ThinElements {
   [[nodiscard]] const SectionMean* mean_of(Index node) const;
 };
 
-/// Shells and beams of one cell each, and the means over their sections that CalculiX tells of
-/// their nodes. These are not what the nodes are moved by: see Mesh::relations.
+/// Shells, beams and plane elements of one cell each, and the means over their sections that
+/// CalculiX tells of their nodes. These are not what the nodes are moved by: see Mesh::relations.
 ///
 /// Formula    (bottom + 4 middle + top) / 6 at corners of tri6 and quad8, else the mean of the
 ///            corners of the section; where elements with other sections meet, that of the elements

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "osculate/mesh/check.hpp"
 #include "osculate/solid/stress_stiffness.hpp"
 
 namespace osculate::model {
@@ -144,7 +145,8 @@ std::vector<double> side_weights(const BasicModel<Dim>& model, const solid::Sect
 template <int Dim>
 double smallest_jacobian(const BasicModel<Dim>& model, const mesh::CellRef& ref) {
   const CellNodes cell = cell_nodes(model.mesh, ref);
-  return solid::smallest_jacobian<Dim>(cell.type, reference_of(model, cell.nodes));
+  return solid::smallest_jacobian<Dim>(cell.type, reference_of(model, cell.nodes),
+                                       mesh::is_collapsed(model.mesh, ref));
 }
 
 template <int Dim>

@@ -69,11 +69,13 @@ bool shows_as_given(const AnswerModel<Dim>& answers, const deck::Output& output)
   return output.as_given && answers.thin.complete && !answers.thin.elements.empty();
 }
 
-/// A field of the solids at a node, of shells and beams the mean over the section.
+/// A field of the solids at a node, of shells and beams the mean over the section. Nodes of plane
+/// elements beside solids have displacements of their own (`moves`).
 template <int Dim, class Values>
-std::vector<double> told_of(const AnswerModel<Dim>& answers, Index node, const Values& at) {
+std::vector<double> told_of(const AnswerModel<Dim>& answers, Index node, const Values& at,
+                            bool moves = false) {
   const mesh::SectionMean* const mean = answers.thin.mean_of(node);
-  if (!mean) {
+  if (!mean || (moves && mean->leads)) {
     const auto own = at(node);
     return {own.begin(), own.end()};
   }
@@ -112,7 +114,7 @@ std::vector<double> field_values(Answer what, const AnswerModel<Dim>& answers,
     return std::array{any ? plastic->second[static_cast<std::size_t>(n)] : 0.0};
   };
   for (const Index node : nodes) {
-    if (what == Answer::u) column.add(told_of(answers, node, in(f.displacement)));
+    if (what == Answer::u) column.add(told_of(answers, node, in(f.displacement), true));
     if (what == Answer::s) column.add(told_of(answers, node, in(f.stress)));
     if (what == Answer::e) column.add(told_of(answers, node, in(f.strain)));
     if (what == Answer::rf) {  // of the whole ring in .frd

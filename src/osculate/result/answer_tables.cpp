@@ -357,7 +357,7 @@ io::FrdMesh AnswerModel<Dim>::as_given() const {
 template <int Dim>
 Vec3 AnswerModel<Dim>::displacement(const Eigen::VectorXd& u, Index node) const {
   Vec3 out = Vec3::Zero();
-  if (const mesh::SectionMean* const mean = thin.mean_of(node))
+  if (const mesh::SectionMean* const mean = thin.mean_of(node); mean && !mean->leads)
     for (const auto& [n, share] : mean->shares)
       out.template head<Dim>() += share * u.segment<Dim>(Dim * n);
   else

@@ -276,7 +276,7 @@ ElementVector<Dim> volume_weights(const Section<Dim>& section, CellType type,
 }
 
 template <int Dim>
-double smallest_jacobian(CellType type, const Coordinates<Dim>& reference) {
+double smallest_jacobian(CellType type, const Coordinates<Dim>& reference, bool collapsed) {
   double smallest = std::numeric_limits<double>::infinity();
   const auto visit = [&](const Shape<Dim>& s) {
     const Mat<Dim, Dim> j = reference.transpose() * s.d.topRows(s.count);
@@ -284,7 +284,7 @@ double smallest_jacobian(CellType type, const Coordinates<Dim>& reference) {
   };
   for (const bool ring : {false, true})
     for (const Shape<Dim>& s : rule_of<Dim>(type, ring).shape) visit(s);
-  if (cell::info(type).nodes > cell::info(type).corners) return smallest;
+  if (collapsed || cell::info(type).nodes > cell::info(type).corners) return smallest;
   for (int k = 0; k < cell::info(type).nodes; ++k)
     visit(shape_at<Dim>(type, node_at<Dim>(type, k)));
   return smallest;
@@ -300,7 +300,7 @@ template std::size_t point_count(const Section<2>&, CellType);
 template std::size_t point_count(const Section<3>&, CellType);
 template ElementVector<2> volume_weights(const Section<2>&, CellType, const Coordinates<2>&);
 template ElementVector<3> volume_weights(const Section<3>&, CellType, const Coordinates<3>&);
-template double smallest_jacobian<2>(CellType, const Coordinates<2>&);
-template double smallest_jacobian<3>(CellType, const Coordinates<3>&);
+template double smallest_jacobian<2>(CellType, const Coordinates<2>&, bool);
+template double smallest_jacobian<3>(CellType, const Coordinates<3>&, bool);
 
 }  // namespace osculate::solid

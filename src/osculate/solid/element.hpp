@@ -165,9 +165,10 @@ template <int Dim>
                                                 const Coordinates<Dim>& reference);
 
 /// Smallest Jacobian determinant over the quadrature points of full integration, of cells of first
-/// order over their nodes, too.
+/// order over their nodes, too, but of those that have some at one place (`collapsed`).
 template <int Dim>
-[[nodiscard]] double smallest_jacobian(cell::CellType type, const Coordinates<Dim>& reference);
+[[nodiscard]] double smallest_jacobian(cell::CellType type, const Coordinates<Dim>& reference,
+                                       bool collapsed = false);
 
 /// Sides of cells, edges in the plane (line cells, the body on the right of travel) and faces in
 /// space (tri3, tri6, quad4, quad8 or quad9; the normal r_1 x r_2 points out of the body).

@@ -75,11 +75,12 @@ class Builder {
   }
 
  private:
-  /// Makes solids of shells and beams, and sets of their knots.
+  /// Makes solids of shells, beams and of plane elements beside solids, and sets of their knots.
   void expand_thin() {
     const ThinCards cards = thin_cards(deck_, raw_, numbering_, members_);
     if (cards.sections.empty()) return;
     expansion_ = expand(deck_, cards, numbering_, out_.mesh);
+    out_.sectors = cards.sectors;
     for (Knot& knot : expansion_.knots) {
       const std::int64_t number = mesh::node_number(out_.mesh, knot.node);
       mesh::Set set{fmt::format("knot {}", number), 0, {}, std::move(knot.nodes), true};

@@ -35,6 +35,7 @@ struct DeckMesh {
   mesh::Mesh mesh;
   std::vector<DeckSet> sets;
   std::vector<DeckKnot> knots{};
+  bool sectors = false;  ///< axisymmetric elements became sectors of 2 degrees
   /// Numbers of nodes that sets list and that do not exist, with a line each: left out.
   std::map<std::int64_t, std::uint32_t> missing{};
 };

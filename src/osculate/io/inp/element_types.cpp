@@ -146,6 +146,7 @@ Side find_side(const ElementType& type, std::string_view label) {
 }
 
 std::string solid_side(std::string_view label, bool of_load, Family family) {
+  if (family == plane && label.size() == 2) return {'S', static_cast<char>(label[1] + 2)};
   if (of_load) {
     if (family == surface && label.size() == 6) return {'S', static_cast<char>(label[5] + 2)};
     if (family == surface) return "S1";

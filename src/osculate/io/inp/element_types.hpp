@@ -49,7 +49,8 @@ struct Side {
 [[nodiscard]] Side find_side(const ElementType& type, std::string_view label);
 /// What a side (S1, SPOS, E1, ...) or, `of_load`, the side that a load P, P1, ... acts on is called
 /// on a solid. Of shells and beams (`family` surface and line) this is the solid that they are
-/// expanded to, and their loads push along the normal, along the first and the second axis.
+/// expanded to, and their loads push along the normal, along the first and the second axis; of
+/// plane elements beside solids likewise, whose edges S1, S2, ... are S3, S4, ... there.
 [[nodiscard]] std::string solid_side(std::string_view label, bool of_load, Family family);
 /// What may be written: `S1 to S6`.
 [[nodiscard]] std::string side_names(const ElementType& type);

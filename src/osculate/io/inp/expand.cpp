@@ -1,5 +1,7 @@
 #include "osculate/io/inp/expand.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -8,6 +10,7 @@
 #include <numbers>
 
 #include "osculate/io/inp/fibers.hpp"
+#include "osculate/mesh/boundary.hpp"
 
 namespace osculate::io::inp {
 namespace {
@@ -24,6 +27,7 @@ class Expander : private Fibers {
       : Fibers(mesh), deck_(deck), cards_(cards), numbering_(numbering) {}
 
   Expansion expand() {
+    in_solids_.resize(mesh_.nodes.size());
     take_cells();
     const auto all = thin_groups(deck_, cards_, numbering_, mesh_);
     std::map<std::pair<Index, int>, Fiber> fibers;  // by element and its node
@@ -59,6 +63,8 @@ class Expander : private Fibers {
         element.deck_nodes.assign(all.begin(), all.end());
       else
         element.cell = append(element.cell.block, static_cast<Index>(e), all);
+      if (cards_.section_of[e] < 0 && element.type->family == Family::solid)
+        for (const Index node : all) in_solids_[static_cast<std::size_t>(node)] = true;
     }
     for (const std::int64_t number : numbers_) next_cell_ = std::max(next_cell_, number + 1);
   }
@@ -81,6 +87,10 @@ class Expander : private Fibers {
         is_plate(group) ? Vec3(Vec3::Zero()) : Vec3(group.normal.cross(group.tangent));
     for (const Index one : all) {
       if (one < 0) continue;
+      if (group.section->is_plane()) {
+        mesh_.expanded.push_back({one, node, Vec2::Zero(), true});
+        continue;
+      }
       const Vec3 arm = at(one) - at(node);
       mesh_.expanded.push_back({one, node, {arm.dot(group.normal), arm.dot(first)}});
     }
@@ -88,7 +98,35 @@ class Expander : private Fibers {
 
   // ---- what the deck's node does ----------------------------------------------------------------
 
+  [[noreturn]] void fail_at(const ThinGroup& group, Index node, const char* what) const {
+    fail(deck_, group.section->at,
+         fmt::format("*SOLID SECTION: {} {}", mesh::describe_node(mesh_, node), what));
+  }
+
+  /// Whether the groups are of plane elements; fails where these meet shells or beams.
+  bool join_plane(Index node, const std::vector<ThinGroup>& groups,
+                  const std::vector<Fiber>& fibers) {
+    const auto plane = [](const ThinGroup& group) { return group.section->is_plane(); };
+    const auto count = std::ranges::count_if(groups, plane);
+    if (count == 0) return false;
+    const ThinGroup& first = *std::ranges::find_if(groups, plane);
+    if (count < std::ssize(groups))
+      fail_at(first, node,
+              "is one of plane elements and of shells, beams or trusses: not supported");
+    constexpr double rounding = 1e-9;
+    if (std::abs(at(node).z()) > rounding * at(node).norm())
+      fail_at(first, node, "of plane elements is not at z = 0");
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      if (groups[g].section->plane == ThinSection::Plane::axisymmetric && at(node).x() < 0)
+        fail_at(groups[g], node, "of axisymmetric elements has a negative radius (x)");
+      follow_plane(node, groups[g], fibers[g]);
+    }
+    keep_in_plane(node, fibers[0], in_solids_[static_cast<std::size_t>(node)]);
+    return true;
+  }
+
   void join(Index node, const std::vector<ThinGroup>& groups, const std::vector<Fiber>& fibers) {
+    if (join_plane(node, groups, fibers)) return;
     Knot knot{node, {node}};
     std::size_t stiff = 0, last = 0;
     for (std::size_t g = 0; g < groups.size(); ++g) {
@@ -299,6 +337,22 @@ class Expander : private Fibers {
 
   // ---- cells ------------------------------------------------------------------------------------
 
+  /// The type of the solid that an element becomes.
+  [[nodiscard]] std::string solid_variant(const Element& element, const ThinSection& section,
+                                          std::size_t nodes) const {
+    std::string letters = numbering_.variants[element.variant].substr(element.type->name.size());
+    const bool reduced = letters.find('R') != std::string::npos && nodes % 4 == 0;
+    const std::string solid = "C3D" + std::to_string(nodes);
+    if (section.is_plane()) {  // there is no hybrid plane stress
+      if (section.plane == ThinSection::Plane::stress) std::erase(letters, 'H');
+      return solid + letters;
+    }
+    const bool of_beam = reduced && cell::info(element.type->cell).dimension == 1 && nodes == 20 &&
+                         !section.is_hollow();
+    if (of_beam) return std::string(beam_brick);
+    return solid + (reduced ? "R" : nodes == 8 ? "I" : "");
+  }
+
   void add_cell(Index e, const std::map<std::pair<Index, int>, Fiber>& fibers) {
     Element& element = numbering_.elements[static_cast<std::size_t>(e)];
     const cell::CellInfo& info = cell::info(element.type->cell);
@@ -319,17 +373,9 @@ class Expander : private Fibers {
                           : beam_nodes(at_nodes));
     }
     const std::vector<Index>& nodes = cells[0];
-    const std::string letters =
-        numbering_.variants[element.variant].substr(element.type->name.size());
-    const bool reduced = letters.find('R') != std::string::npos && nodes.size() % 4 == 0;
-    const std::string solid = "C3D" + std::to_string(nodes.size());
-    const bool of_beam =
-        reduced && info.dimension == 1 && nodes.size() == 20 && !section.is_hollow();
-    element.type = find_element_type(solid);
-    element.variant = variant_place(numbering_, of_beam ? std::string(beam_brick)
-                                                        : solid + (reduced             ? "R"
-                                                                   : nodes.size() == 8 ? "I"
-                                                                                       : ""));
+    const std::string solid = solid_variant(element, section, nodes.size());
+    element.type = find_element_type("C3D" + std::to_string(nodes.size()));
+    element.variant = variant_place(numbering_, solid);
     element.cell = append_solid(element, e, nodes);
     for (std::size_t c = 1; c < cells.size(); ++c) {
       element.others.push_back(append_solid(element, e, cells[c]));
@@ -352,6 +398,7 @@ class Expander : private Fibers {
   Expansion out_;
   std::vector<std::int64_t> numbers_;  ///< of the elements; empty: none
   std::int64_t next_cell_ = 0;         ///< number of the next cell beyond one of an element
+  std::vector<bool> in_solids_;        ///< by node of the deck
 };
 
 }  // namespace

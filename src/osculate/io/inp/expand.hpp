@@ -34,6 +34,10 @@ struct Expansion {
 /// rotation about the axes; a node of its own has them as displacements. Ends of trusses are joined
 /// by the means alone; that the first end does not turn about the truss is one relation more.
 ///
+/// Plane elements beside these or solids become one layer of C3D6, C3D8, C3D15 or C3D20, of the
+/// same integration: plates between -t/2 and t/2, and sectors of 2 degrees in the middle of which
+/// is the plane z = 0. Their nodes follow those of the deck (Fibers::follow_plane).
+///
 /// Numbers    new nodes go on after the largest one of the deck; cells have those of the elements
 /// Source     CalculiX CrunchiX User's Manual, "Expansion of the one-dimensional and
 ///            two-dimensional elements"

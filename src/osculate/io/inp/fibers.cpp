@@ -9,6 +9,13 @@ namespace osculate::io::inp {
 namespace {
 
 using Shape = ThinSection::Shape;
+using Plane = ThinSection::Plane;
+
+/// From the axis to bottom, middle and top of a sector of 2 degrees, along x and z.
+Vec2 direction_of_level(std::size_t level) {
+  const double angle = (static_cast<double>(level) - 1) * std::numbers::pi / sectors_of_ring;
+  return {std::cos(angle), std::sin(angle)};
+}
 
 }  // namespace
 
@@ -49,6 +56,14 @@ Fiber Fibers::fiber_of(Index node, const ThinGroup& group) {
   Fiber fiber;
   fiber.fill(-1);
   const Vec3 origin = at(node);
+  if (group.section->plane == Plane::axisymmetric) {
+    for (const std::size_t k : {0, 1, 2})
+      if (k != 1 || group.has_middle) {
+        const Vec2 way = direction_of_level(k);
+        fiber[k] = add_node({origin.x() * way[0], origin.y(), origin.x() * way[1]});
+      }
+    return fiber;
+  }
   const std::array<double, 2>& offset = group.section->offset;
   if (is_plate(group)) {
     if (!group.section->layers.empty()) return add_levels(node, group);
@@ -68,6 +83,27 @@ Fiber Fibers::fiber_of(Index node, const ThinGroup& group) {
   }
   if (group.section->is_hollow()) add_points(group, fiber);
   return fiber;
+}
+
+void Fibers::follow_plane(Index node, const ThinGroup& group, const Fiber& fiber) {
+  const Plane plane = group.section->plane;
+  for (const std::size_t k : {0, 1, 2}) {
+    if (fiber[k] < 0) continue;
+    const Vec2 way = plane == Plane::axisymmetric ? direction_of_level(k) : Vec2(1, 0);
+    mesh_.relations.push_back({{{fiber[k], 0, 1}, {node, 0, -way[0]}}});
+    mesh_.relations.push_back({{{fiber[k], 1, 1}, {node, 1, -1}}});
+    if (way[1] != 0)
+      mesh_.relations.push_back({{{fiber[k], 2, 1}, {node, 0, -way[1]}}});
+    else if (plane != Plane::stress || k == 1)
+      mesh_.relations.push_back({{{fiber[k], 2, 1}}});
+  }
+  if (plane == Plane::stress) mesh_.relations.push_back({{{fiber[0], 2, 1}, {fiber[2], 2, 1}}});
+}
+void Fibers::keep_in_plane(Index node, const Fiber& fiber, bool in_solids) {
+  mesh::Relation& relation = mesh_.relations.emplace_back();
+  relation.terms.push_back({node, 2, 1});
+  if (in_solids)
+    relation.terms.insert(relation.terms.end(), {{fiber[0], 2, -.5}, {fiber[2], 2, -.5}});
 }
 
 Fiber Fibers::add_levels(Index node, const ThinGroup& group) {

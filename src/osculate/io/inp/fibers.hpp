@@ -39,6 +39,20 @@ class Fibers {
   /// A node moves as others do by their shares.
   void follow(Index node, const Shares& shares);
 
+  // ---- plane elements
+  /// All nodes of a fiber move with the deck's node in its plane, those of sectors turned with
+  /// them. Its sides do not part in plane strain, and alike to both sides in plane stress.
+  ///
+  /// Formula    strain  u_i = (u_x, u_y, 0) ; stress  u_i = (u_x, u_y, w_i) , w_bottom = -w_top ,
+  ///            w_middle = 0 ; axisymmetric  u_i = (cos a_i u_x, u_y, sin a_i u_x) , a = -1, 0, 1
+  ///            deg
+  /// Source     answers of ccx 2.20
+  /// Tested by  tests/unit/io/test_inp_plane.cpp
+  void follow_plane(Index node, const ThinGroup& group, const Fiber& fiber);
+  /// The deck's node does not leave its plane, also where solids have it: then no step may
+  /// prescribe anything else.
+  void keep_in_plane(Index node, const Fiber& fiber, bool in_solids);
+
   // ---- layers
   /// Bottom, middle and top of each layer; without middles where there is no corner. Of the fiber
   /// that stands for all its bottom and top.

@@ -63,13 +63,16 @@ void Sides::add_side(const SurfaceEntry& entry, Index element, std::vector<mesh:
          fmt::format("element {} is a hollow beam: its sides are not supported",
                      mesh::cell_number(mesh_, ref)));
   const bool as_it_is = deck_nodes.empty() && !entry.of_load;
+  const bool layer = !deck_nodes.empty() && family == Family::plane;
+  const Family as = family == Family::plane && !layer ? Family::solid : family;
   const Side side =
-      find_side(*type, as_it_is ? entry.side : solid_side(entry.side, entry.of_load, family));
+      find_side(*type, as_it_is ? entry.side : solid_side(entry.side, entry.of_load, as));
   if (side.kind == Side::Kind::none)
     fail(deck_, entry.set.at,
          fmt::format("element {} of type {} has no side {}; expected {}",
                      mesh::cell_number(mesh_, ref), type->name, shown(entry.side),
-                     side_names(*type)));
+                     layer ? fmt::format("S1 to S{}", cell::info(type->cell).corners / 2)
+                           : side_names(*type)));
   if (side.kind == Side::Kind::whole) return cells.push_back(ref);
   // of layers the bottom is that of the first, the top that of the last, the sides are those of all
   std::vector<mesh::CellRef> all{ref};
@@ -90,7 +93,28 @@ template <class Facets>
 void Sides::add_facets(const SurfaceEntry& entry, const Facets& facets,
                        std::vector<mesh::CellRef>& cells) {
   if (!facets.errors.empty()) fail(deck_, entry.set.at, facets.errors.front());
-  for (const auto& one : facets.facets) cells.push_back(facet(one.type, one.nodes(), one.parent));
+  for (const auto& one : facets.facets)
+    if (!is_side_of_layer(one.nodes().first(static_cast<std::size_t>(cell::info(one.type).corners)),
+                          one.parent))
+      cells.push_back(facet(one.type, one.nodes(), one.parent));
+}
+
+/// Whether a face is one of those between which plane elements were expanded: all its corners are
+/// below, or above.
+bool Sides::is_side_of_layer(std::span<const Index> corners, mesh::CellRef parent) {
+  if (!layer_cells_) {
+    layer_cells_.emplace();
+    for (const Element& element : numbering_.elements)
+      if (element.deck_family == Family::plane && !element.deck_nodes.empty())
+        layer_cells_->emplace(element.cell.block, element.cell.cell);
+  }
+  if (!layer_cells_->contains({parent.block, parent.cell})) return false;
+  const mesh::Block& block = mesh_.blocks[static_cast<std::size_t>(parent.block)];
+  const Index* const below = block.cell(parent.cell);
+  const Index* const above = below + cell::info(block.type).corners / 2;
+  const auto count = std::ranges::count_if(
+      corners, [&](Index node) { return std::find(below, above, node) != above; });
+  return count == 0 || count == std::ssize(corners);
 }
 
 std::vector<mesh::CellRef> Sides::all_cells(int dimension) const {

@@ -1,6 +1,7 @@
 #pragma once
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "osculate/io/inp/members.hpp"
@@ -11,7 +12,8 @@ namespace osculate::io::inp {
 
 /// Adds the facets of element-based surfaces to the mesh as cells of their own, each once: faces
 /// of solids as areas with the normal outwards, edges of plane elements as lines with the body on
-/// the right, edges of shells as lines; a shell seen from above is its own cell.
+/// the right, edges of shells as lines; a shell seen from above is its own cell. Of plane elements
+/// that were expanded to solids the faces between their two sides.
 ///
 /// Errors     core::InputError: sides that an element does not have, surfaces of lines and areas
 /// Tested by  tests/unit/io/test_inp_elements.cpp, test_inp.cpp, test_inp_broken.cpp
@@ -35,12 +37,14 @@ class Sides {
   template <class Facets>
   void add_facets(const SurfaceEntry& entry, const Facets& facets,
                   std::vector<mesh::CellRef>& cells);
+  [[nodiscard]] bool is_side_of_layer(std::span<const Index> corners, mesh::CellRef parent);
   [[nodiscard]] std::vector<mesh::CellRef> all_cells(int dimension) const;
 
   const Deck& deck_;
   const Numbering& numbering_;
   mesh::Mesh& mesh_;
   std::map<Key, mesh::CellRef> known_;
+  std::optional<std::set<std::pair<Index, Index>>> layer_cells_;  ///< of plane elements, expanded
   std::optional<mesh::FaceTable> faces_;
   std::optional<mesh::EdgeTable> edges_;
 };

@@ -90,6 +90,11 @@ class Grouper {
     c.section =
         &cards_.sections[static_cast<std::size_t>(cards_.section_of[static_cast<std::size_t>(e)])];
     const auto thickness = cards_.thickness.find(node);
+    if (c.section->is_plane()) {
+      c.normal = Vec3::UnitZ();
+      c.thickness = c.section->thickness;
+      return c;
+    }
     const bool of_node = !(c.section->thickness[0] > 0) && thickness != cards_.thickness.end();
     c.thickness = of_node ? thickness->second : c.section->thickness;
     if (!(c.thickness[0] > 0))
@@ -116,7 +121,8 @@ class Grouper {
   [[nodiscard]] static bool continues(const Corner& c, const Corner& first, double degrees) {
     constexpr double same = 1e-9;
     const ThinSection &a = *c.section, &b = *first.section;
-    if (a.hinged || b.hinged || a.shape != b.shape || a.wall != b.wall || a.layers != b.layers)
+    if (a.hinged || b.hinged || a.shape != b.shape || a.plane != b.plane || a.wall != b.wall ||
+        a.layers != b.layers)
       return false;
     for (const std::size_t k : {0, 1})
       if (std::abs(c.thickness[k] - first.thickness[k]) > same * first.thickness[0] ||

@@ -22,6 +22,13 @@ bool is_shell(const ElementType& type) {
 }
 bool is_truss(const ElementType& type) { return type.name.starts_with("T3D"); }
 bool is_beam(const ElementType& type) { return type.name.starts_with("B3"); }
+bool is_solid(const ElementType& type) { return type.family == Family::solid; }
+bool is_axisymmetric(const ElementType& type) { return type.name.starts_with("CAX"); }
+
+ThinSection::Plane plane_of(const ElementType& type) {
+  if (is_axisymmetric(type)) return ThinSection::Plane::axisymmetric;
+  return type.name.starts_with("CPS") ? ThinSection::Plane::stress : ThinSection::Plane::strain;
+}
 
 /// PIPE and others as they are called; a plate is none of them.
 Shape shape_of(const Card& card) {
@@ -52,6 +59,11 @@ class Reader {
     for (const Card& card : deck_.cards) {
       if (card.keyword == "SHELLSECTION" || is_beam_section(card)) read_section(card);
       if (card.keyword == "SOLIDSECTION") read_trusses(card);
+    }
+    if (!out_.sections.empty() || section_has(is_solid)) {
+      out_.sectors = section_has(is_axisymmetric);
+      for (const Card& card : deck_.cards)
+        if (card.keyword == "SOLIDSECTION") read_plane(card);
     }
     if (out_.sections.empty()) return std::move(out_);
     for (const Card& card : deck_.cards) {
@@ -179,6 +191,39 @@ class Reader {
     for (const Index element : trusses)
       out_.section_of[static_cast<std::size_t>(element)] = static_cast<int>(out_.sections.size());
     out_.sections.push_back(section);
+  }
+
+  /// Whether some `*SOLID SECTION` has elements of a kind.
+  [[nodiscard]] bool section_has(bool (*is)(const ElementType&)) {
+    for (const Card& card : deck_.cards) {
+      if (card.keyword != "SOLIDSECTION") continue;
+      for (const Index element : elements_of(card))
+        if (is(*numbering_.elements[static_cast<std::size_t>(element)].type)) return true;
+    }
+    return false;
+  }
+
+  /// Plane elements beside solids: one section of each kind.
+  void read_plane(const Card& card) {
+    std::map<ThinSection::Plane, int> known;
+    for (const Index element : elements_of(card)) {
+      const ElementType& type = *numbering_.elements[static_cast<std::size_t>(element)].type;
+      if (type.family != Family::plane) continue;
+      const auto [found, is_new] =
+          known.try_emplace(plane_of(type), static_cast<int>(out_.sections.size()));
+      out_.section_of[static_cast<std::size_t>(element)] = found->second;
+      if (!is_new) continue;
+      ThinSection& section = out_.sections.emplace_back();
+      section.plane = found->first;
+      section.at = card.at;
+      section.thickness[0] = 1;
+      if (section.plane == ThinSection::Plane::axisymmetric) continue;
+      if (const auto lines = lines_of(deck_, card); !lines.empty()) {
+        Fields fields(deck_, lines[0]);
+        if (const double size = thickness(fields, false); size > 0) section.thickness[0] = size;
+      }
+      if (out_.sectors) section.thickness[0] /= sectors_of_ring;
+    }
   }
 
   [[nodiscard]] std::vector<Index> nodes_of(std::string_view field, Place at) {

@@ -8,10 +8,13 @@
 
 namespace osculate::io::inp {
 
-/// How shells, beams and trusses fill space. Lengths of beams are along their first and second
-/// axis.
+/// How shells, beams and trusses fill space, and plane elements beside solids. Lengths of beams are
+/// along their first and second axis.
 struct ThinSection {
   enum class Shape : std::uint8_t { plate, rectangle, ellipse, pipe, box } shape = Shape::plate;
+  /// What holds the two sides of plane elements: a plate normal to z, or a sector of 2 degrees
+  /// about the y axis.
+  enum class Plane : std::uint8_t { none, strain, stress, axisymmetric } plane = Plane::none;
   bool hinged = false;                ///< of trusses: ends turn freely
   std::array<double, 2> thickness{};  ///< 0: of the nodes
   /// Of a pipe its wall; of a box those at the first axis forth, the second forth, the first back,
@@ -20,13 +23,20 @@ struct ThinSection {
   std::vector<double> layers{};    ///< of a plate of several: their thickness, bottom first
   std::array<double, 2> offset{};  ///< of the reference from the middle, in thicknesses
   Vec3 axis = -Vec3::UnitZ();      ///< beams: along the first axis
+  Place at{};                      ///< of the card, of plane elements
 
   [[nodiscard]] bool is_hollow() const { return shape == Shape::pipe || shape == Shape::box; }
+  [[nodiscard]] bool is_plane() const { return plane != Plane::none; }
 };
+
+/// The whole of an axisymmetric model over the sector of 2 degrees that stands for it beside
+/// solids.
+inline constexpr double sectors_of_ring = 180;
 
 /// What a deck says of elements that are expanded to solids.
 struct ThinCards {
-  bool finite = false;  ///< has_finite_step
+  bool sectors = false;  ///< axisymmetric elements are
+  bool finite = false;   ///< has_finite_step
   std::vector<ThinSection> sections;
   std::vector<int> section_of;                       ///< by element; -1: not expanded
   std::map<Index, std::array<double, 2>> thickness;  ///< by node
@@ -46,10 +56,12 @@ struct ThinCards {
 
 /// From `*SHELL SECTION`, `*BEAM SECTION`, `*BEAM GENERAL SECTION`, `*SOLID SECTION` of trusses,
 /// `*NODAL THICKNESS`,
-/// `*NORMAL`, and rotations in `*BOUNDARY` and `*CLOAD`.
+/// `*NORMAL`, and rotations in `*BOUNDARY` and `*CLOAD`. Plane elements with a section are expanded
+/// where solids, shells, beams or trusses have one, too; beside axisymmetric ones their thickness
+/// is a 180th, as in CalculiX.
 ///
 /// Errors     core::InputError: a thickness that is not positive, elements that are neither
-/// Tested by  tests/unit/io/test_inp_expand.cpp
+/// Tested by  tests/unit/io/test_inp_expand.cpp, test_inp_plane.cpp
 [[nodiscard]] ThinCards thin_cards(const Deck& deck, const RawMesh& raw, const Numbering& numbering,
                                    Members& members);
 
