@@ -72,6 +72,17 @@ template <int Dim>
 void set_laws(const BuildContext<Dim>& c, const Contact& contact,
               pairing::PairDefinition<Dim>& pair);
 
+/// The steps in which a law of a pair acts that it has from a step on: up to the next one that says
+/// another `law` of the pair of that name.
+template <class Law>
+[[nodiscard]] StepRange steps_of_law(const Description& d, const std::string& pair,
+                                     std::size_t first, Law ContactChange::*law) {
+  for (std::size_t s = first; s < d.steps.size(); ++s)
+    for (const ContactChange& change : d.steps[s].contact)
+      if (change.pair.value == pair && (change.*law).has_value()) return {first, s};
+  return {first};
+}
+
 /// Counts the points of a prepared pair that are tied; throws where there are none.
 template <int Dim>
 void note_tied(BuildContext<Dim>& c, const Contact& contact,

@@ -277,6 +277,8 @@ struct ContactChange {
   std::optional<NormalDescription> normal;
   /// Empty: stays; with an empty law: no friction.
   std::optional<std::optional<GivenLaw<contact::FrictionLaw>>> friction;
+  /// Likewise.
+  std::optional<std::optional<GivenLaw<contact::DampingLaw>>> damping{};
 };
 
 /// Stresses of a set of cells before the first step, or strains without stress.

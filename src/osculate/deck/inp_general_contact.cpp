@@ -195,6 +195,7 @@ SourceNode contact_of_all(InpModel& m, const General& general,
   if (!general.laws.empty()) {
     const ContactLine& law = general.laws.back();
     put_laws(m, interaction_named(m, interactions, law.at, law.interaction), all);
+    m.pairs.push_back({"all", law.interaction, {}, {}});
   }
   put_exclusions(m, general, all);
   return root;

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "osculate/contact/law/catalogue.hpp"
 #include "osculate/core/text.hpp"
 #include "osculate/deck/bind.hpp"
 #include "osculate/deck/model_spec.hpp"
@@ -85,6 +86,18 @@ Spec damping_spec() {
       .with(Group::Rule::exactly_one, names_of(laws))
       .otherwise_as("none")
       .such_as("{restitution: 0.5}");
+}
+
+/// What begins in a step has no memory of where a contact began.
+Spec changed_damping_spec() {
+  std::vector<Key> laws = damping_law_keys();
+  std::erase_if(laws, [](const Key& key) { return key.name != contact::Viscous::key; });
+  return either(
+             "Damping in the normal direction from now on, in place of `normal: damping` of the "
+             "pair.",
+             {choice("No damping.", {Choice{"none", "no damping", 0, true}}),
+              map("A law of damping.", laws).with(Group::Rule::exactly_one, names_of(laws))})
+      .such_as("{viscous: 0.5}");
 }
 
 Spec normal_spec() {
@@ -425,10 +438,16 @@ BoundKeys<ContactChange> change_keys() {
             [](C& c, const Value& v) {
               if (v.given) read_normal(v, c.normal.emplace());
             }},
-           {optional("friction", friction_spec()), [](C& c, const Value& v) {
+           {optional("friction", friction_spec()),
+            [](C& c, const Value& v) {
               if (!v.given) return;
               c.friction.emplace();
               if (v.alternative != 0) *c.friction = friction_law_of(v);
+            }},
+           {optional("damping", changed_damping_spec()), [](C& c, const Value& v) {
+              if (!v.given) return;
+              c.damping.emplace();
+              if (v.alternative != 0) *c.damping = damping_law_of(v);
             }}}};
 }
 
@@ -439,7 +458,8 @@ BoundKey<Step> contact_changes_key() {
   return {optional("contact",
                    list("What changes of contact pairs when the step begins, and stays so.",
                         keys.spec("Change of one pair.")
-                            .with(Group::Rule::at_least_one, {"active", "normal", "friction"}))
+                            .with(Group::Rule::at_least_one,
+                                  {"active", "normal", "friction", "damping"}))
                        .otherwise("[]")
                        .such_as("[{pair: floor, friction: {coulomb: {mu: 0.1, penalty: 2e6}}}]")),
           [keys](Step& s, const Value& v) { s.contact = keys.read_all(v); }};

@@ -178,7 +178,6 @@ TEST(InpBetweenSteps, LawsThatAreNoPenalty) {
   // in steps with inertia alone
   const std::string at_rest = part(dry + damped + pair + press, "contact");
   EXPECT_EQ(at_rest.find("viscous"), std::string::npos) << at_rest;
-  expect_in(message_of(dry + damped + pair + press + in_time), "acts in steps with *DYNAMIC alone");
   const std::string mortar = "*CONTACT PAIR, INTERACTION=SOFT, TYPE=MORTAR\nSLAVE, MASTER\n";
   const std::string unknown = "enforcement: lagrange_multiplier";
   EXPECT_EQ(part(exponential + mortar + press, "contact").find(unknown), std::string::npos);
@@ -188,6 +187,36 @@ TEST(InpBetweenSteps, LawsThatAreNoPenalty) {
       "*CONTACT PAIR, INTERACTION=DRY, TYPE=NODE TO SURFACE, ADJUST=FOOT\nSLAVE, MASTER\n";
   expect_in(part(dry + adjusted + press, "contact"), "initial: {nodes: FOOT}");
   EXPECT_EQ(message_of(dry + adjusted + press), "no error");
+}
+
+TEST(InpBetweenSteps, DampingComesAndGoesWithInertia) {
+  const std::string in_time = "*STEP\n*DYNAMIC, DIRECT\n0.1, 1.\n*END STEP\n";
+  const std::string vibrations = "*STEP\n*FREQUENCY\n2\n*END STEP\n";
+  const std::string law = dry + "*CONTACT DAMPING, TANGENT FRACTION=0.5\n3\n" + pair;
+  const std::string rests = law + press + vibrations + in_time + in_time + press;
+  const std::string at_first = part(rests, "contact");
+  EXPECT_EQ(at_first.find("damping"), std::string::npos) << at_first;
+  EXPECT_EQ(at_first.find("viscous"), std::string::npos) << at_first;
+  const std::string steps = part(rests, "steps");
+  const auto count = [&](const std::string& what) {
+    std::size_t n = 0;
+    for (std::size_t at = steps.find(what); at != std::string::npos; at = steps.find(what, at + 1))
+      ++n;
+    return n;
+  };
+  EXPECT_EQ(count("contact:"), 2u) << steps;  // when the third step begins, and the last one
+  expect_in(steps, "damping: {viscous: 3}");
+  expect_in(steps, "{mu: 0.2, penalty: 50000, viscous: 1.5}");
+  expect_in(steps, "damping: none");
+  expect_in(steps, "{mu: 0.2, penalty: 50000}");
+  // Friction that has changed stays so.
+  const std::string rougher =
+      "*STEP\n*STATIC\n1,1\n*CHANGE FRICTION, INTERACTION=DRY\n*FRICTION\n0.4, 7E4\n*END STEP\n";
+  expect_in(part(law + rougher + in_time, "steps"), "{mu: 0.4, penalty: 70000, viscous: 1.5}");
+  // From the start where inertia is.
+  expect_in(part(law + in_time + press, "contact"), "damping: {viscous: 3}");
+  expect_in(part(law + in_time + press, "steps"), "damping: none");
+  EXPECT_EQ(message_of(law + in_time + press), "no error");
 }
 
 TEST(InpBetweenSteps, AClearanceIsThatOfItsPair) {

@@ -476,6 +476,31 @@ steps: [{name: s, increments: 4, duration: 2, dynamics: {damping: {mass: 0.3}, )
               HasSubstr("an input file has nodes of first-order facets"));
 }
 
+TEST(ToInp, DampingThatComesAndGoesGoesThereAndBack) {
+  const auto with = [](const std::string& first, const std::string& second) {
+    return R"(osculate: 1
+mesh: {generate: {a: {box: {x: [0, 1], y: [0, 1], z: [0, 1], elements: [1, 1, 1]}}, b: {box: {x: [0, 1], y: [0, 1], z: [1, 2], elements: [1, 1, 1]}}}}
+materials: {m: {linear_elastic: {E: 1000, nu: 0.25, density: 2}}}
+sections: [{on: a, material: m, element: solid}, {on: b, material: m, element: solid}]
+contact: [{name: c, master: a.top, slave: b.bottom, normal: {penalty: 1e4}}]
+steps:
+  - {name: s, increments: 1, duration: 1, prescribe: [{on: a.bottom, uz: 0}]}
+  - {name: t, increments: 4, duration: 2, dynamics: {}, contact: [{pair: c, damping: )" +
+           first + R"(}]}
+  - {name: u, increments: 1, duration: 1, contact: [{pair: c, damping: )" +
+           second + "}]}\n";
+  };
+  const std::string deck = written(with("{viscous: 4}", "none"));
+  EXPECT_THAT(deck, HasSubstr("*CONTACT DAMPING\n4\n"));
+  const Description d = parse_model(translate_deck(deck, "model.inp").root, "model.inp");
+  EXPECT_FALSE(d.contact.at(0).normal.damping);
+  EXPECT_EQ(contact::damper((*d.steps.at(1).contact.at(0).damping)->law), 4);
+  EXPECT_FALSE(d.steps.at(2).contact.at(0).damping->has_value());
+  for (const auto& [first, second] :
+       {std::pair{"{viscous: 4}", "{viscous: 4}"}, {"{viscous: 4}", "{viscous: 5}"}})
+    EXPECT_THAT(refusal_of(with(first, second)), HasSubstr("in all of them alike"));
+}
+
 /// `blocks` with durations in all steps, and another edit.
 std::string timed_refusal(const std::string& from, const std::string& to) {
   return refusal_of(edited(edited(blocks, from, to), "  - name: free\n    increments: 1",
@@ -485,7 +510,7 @@ std::string timed_refusal(const std::string& from, const std::string& to) {
 TEST(ToInp, WhatIsDampedInStepsWithoutInertiaIsRefused) {
   EXPECT_THAT(
       timed_refusal("normal: {penalty: 1e4}", "normal: {penalty: 1e4, damping: {viscous: 4}}"),
-      HasSubstr("acts in steps with `dynamics` alone"));
+      HasSubstr("acts in steps with `dynamics`, in all of them alike"));
   EXPECT_THAT(timed_refusal("friction: {coulomb: {mu: 0.2, penalty: 5e3}}",
                             "friction: {viscous: {coefficient: 2, penalty: 5e3}}"),
               HasSubstr("acts in steps with `dynamics` alone"));
