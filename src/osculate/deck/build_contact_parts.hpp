@@ -97,6 +97,26 @@ template <int Dim>
 
 using pairing::search_distance_in_facets;
 
+/// A surface by its nodes, and its facets by theirs, in order. Without facets: those whose nodes it
+/// has.
+struct SurfaceNodes {
+  std::set<Index> nodes;
+  std::set<std::vector<Index>> facets;
+  [[nodiscard]] bool has(std::vector<Index> facet) const;
+};
+/// Surfaces that do not touch by `all`: `exclude_surfaces`, pairs of their own, and nodes that are
+/// tied with their masters.
+template <int Dim>
+[[nodiscard]] std::vector<std::array<SurfaceNodes, 2>> not_by_all(const BuildContext<Dim>& c,
+                                                                  const Contact& all);
+/// What of a master the slave's nodes do not touch, by those.
+///
+/// Tested by  tests/unit/deck/test_contact_all.cpp
+template <int Dim>
+[[nodiscard]] pairing::HiddenFacets hidden_facets(
+    const std::vector<std::array<SurfaceNodes, 2>>& apart, const std::vector<Index>& slave,
+    const pairing::Boundary<Dim>& master);
+
 /// The pairs that `contact: {all: ...}` stands for.
 template <int Dim>
 void build_contact_all(BuildContext<Dim>& c, const Contact& contact);

@@ -26,4 +26,8 @@ void add_ties(BuildContext<Dim>& context, const PrescribedCourses& ever,
               const PrescribedCourses& at_first, std::set<model::Dof> given,
               std::vector<MarkedEquation>& all);
 
+/// The nodes of the slave that a tie ties, in reference coordinates.
+template <int Dim>
+[[nodiscard]] std::vector<Index> nodes_of_tie(const BuildContext<Dim>& context, const Tie& tie);
+
 }  // namespace osculate::deck

@@ -409,6 +409,16 @@ BoundKeys<Contact> all_keys() {
         [](C& c, const Value& v) {
           for (const Value& item : v.items)
             c.exclude.push_back({name_of(item.items[0]), name_of(item.items[1])});
+        }},
+       {optional("exclude_surfaces",
+                 list("Pairs of sets, of facets or nodes, that do not touch, whichever is slave; "
+                      "the same set twice: not itself. Beside them those of `pairs` and of `ties`.",
+                      list("Two sets.", text("Set.").such_as("low.top")).count(2, 2))
+                     .otherwise("[]")
+                     .such_as("[[low.top, high.bottom]]")),
+        [](C& c, const Value& v) {
+          for (const Value& item : v.items)
+            c.exclude_surfaces.push_back({name_of(item.items[0]), name_of(item.items[1])});
         }}});
 }
 
@@ -420,7 +430,11 @@ Contact all_of(const Value& v) {
 
 std::vector<Contact> contacts_of(const Value& v) {
   if (v.alternative == 0) return pair_keys().read_all(v);
-  if (v.alternative == 1) return {all_of(v.at("all"))};
+  if (v.alternative == 1) {
+    std::vector<Contact> out = pair_keys().read_all(v.at("pairs"));
+    out.push_back(all_of(v.at("all")));
+    return out;
+  }
   SourceNode nothing;  // `all` alone is `{all: {}}`
   nothing.kind = SourceNode::Kind::map;
   nothing.line = v.mark.line;
@@ -476,7 +490,13 @@ BoundKey<Description> contact_key() {
                                 all_keys().spec(
                                     "All bodies with each other, with the rigid ones and with "
                                     "themselves; pairs are called NAME.A-B, bodies are numbered "
-                                    "in the order of the mesh."))}),
+                                    "in the order of the mesh.")),
+                       optional("pairs",
+                                list("Contact pairs with keys of their own. Their sides do not "
+                                     "touch each other by `all` as well, and what `ties` hold "
+                                     "together does not either.",
+                                     pair_keys().spec("One contact pair."))
+                                    .otherwise("[]"))}),
                   choice("The same, for short.",
                          {Choice{"all", "all bodies, with the default of every key", 0, true}})})
               .otherwise("[]")

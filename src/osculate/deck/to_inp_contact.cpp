@@ -196,11 +196,35 @@ std::string adjusted(const Contact& contact, const std::string& path, InpMesh<Di
 
 std::string law_name(const std::string& pair) { return fmt::format("law_of_{}", pair); }
 
+/// Path of a pair's keys: beside `all` it stands in a list of its own.
+std::string path_of(const Description& d, std::size_t pair) {
+  if (d.contact[pair].all) return "contact.all";
+  return fmt::format("contact{}[{}]", d.contact.back().all ? ".pairs" : "", pair);
+}
+
+template <int Dim>
+void write_all(const Description& d, const Contact& contact, InpMesh<Dim>& mesh, Leaves& leaves,
+               std::string& out) {
+  (void)leaves.text("contact");
+  (void)leaves.text("contact.all");
+  (void)leaves.text("contact.all.name");
+  const std::string law = law_name(contact.name.value);
+  out += written_laws(d, contact, "contact.all", law, leaves);
+  out += "*CONTACT\n*CONTACT INCLUSIONS, ALL EXTERIOR\n";
+  if (!contact.exclude_surfaces.empty()) out += "*CONTACT EXCLUSIONS\n";
+  for (const std::array<Name, 2>& pair : contact.exclude_surfaces) {
+    const std::string first = mesh.surface(pair[0]);
+    out += fmt::format("{}, {}\n", first, mesh.surface(pair[1]));
+  }
+  leaves.take("contact.all.exclude_surfaces");
+  out += fmt::format("*CONTACT PROPERTY ASSIGNMENT\n, , {}\n", law);
+}
+
 template <int Dim>
 void write_pair(const Description& d, const model::BasicModel<Dim>& m, std::size_t k,
                 InpMesh<Dim>& mesh, Leaves& leaves, std::string& out) {
   const Contact& contact = d.contact[k];
-  const std::string path = fmt::format("contact[{}]", k);
+  const std::string path = path_of(d, k);
   for (const char* const key : {".name", ".master", ".slave"}) (void)leaves.text(path + key);
   const PairType type = type_of_pair(contact, m, mesh, path, leaves);
   const std::string slave = mesh.surface(contact.slave, type.of_nodes),
@@ -219,16 +243,11 @@ void write_pair(const Description& d, const model::BasicModel<Dim>& m, std::size
 template <int Dim>
 void write_contact(const Description& d, const model::BasicModel<Dim>& m, InpMesh<Dim>& mesh,
                    Leaves& leaves, std::string& out) {
-  if (d.contact.size() == 1 && d.contact[0].all) {
-    (void)leaves.text("contact");
-    (void)leaves.text("contact.all");
-    (void)leaves.text("contact.all.name");
-    out += written_laws(d, d.contact[0], "contact.all", law_name(d.contact[0].name.value), leaves);
-    out += "*CONTACT\n*CONTACT INCLUSIONS, ALL EXTERIOR\n*CONTACT PROPERTY ASSIGNMENT\n, , " +
-           law_name(d.contact[0].name.value) + "\n";
-    return;
-  }
-  for (std::size_t k = 0; k < d.contact.size(); ++k) write_pair(d, m, k, mesh, leaves, out);
+  for (std::size_t k = 0; k < d.contact.size(); ++k)
+    if (d.contact[k].all)
+      write_all(d, d.contact[k], mesh, leaves, out);
+    else
+      write_pair(d, m, k, mesh, leaves, out);
 }
 
 template <int Dim>
@@ -266,8 +285,7 @@ std::string contact_changes(const Description& d, std::size_t step, InpMesh<Dim>
     if (!change.friction) continue;
     const WrittenShear shear = written_shear(path + ".friction", leaves);
     const auto pair = static_cast<std::size_t>(of - d.contact.begin());
-    const WrittenShear first = written_shear(
-        of->all ? "contact.all.friction" : fmt::format("contact[{}].friction", pair), leaves);
+    const WrittenShear first = written_shear(path_of(d, pair) + ".friction", leaves);
     if (shear.film != 0 || first.film != 0)
       throw core::InputError(change.mark, "changes of friction beside a film are not written");
     out += fmt::format("*CHANGE FRICTION, INTERACTION={}\n{}", law_name(change.pair.value),

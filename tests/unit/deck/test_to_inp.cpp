@@ -476,6 +476,26 @@ steps: [{name: s, increments: 4, duration: 2, dynamics: {damping: {mass: 0.3}, )
               HasSubstr("an input file has nodes of first-order facets"));
 }
 
+TEST(ToInp, PairsBesideContactOfAllGoThereAndBack) {
+  const std::string text = R"(osculate: 1
+mesh: {generate: {a: {box: {x: [0, 1], y: [0, 1], z: [0, 1], elements: [1, 1, 1]}}, b: {box: {x: [0, 1], y: [0, 1], z: [1, 2], elements: [1, 1, 1]}}, c: {box: {x: [0, 1], y: [0, 1], z: [2, 3], elements: [1, 1, 1]}}}}
+materials: {m: {linear_elastic: {E: 1000, nu: 0.25}}}
+sections: [{on: a, material: m, element: solid}, {on: b, material: m, element: solid}, {on: c, material: m, element: solid}]
+contact:
+  all: {normal: {penalty: 1e4}, exclude_surfaces: [[a.left, b.right]]}
+  pairs: [{name: p, master: a.top, slave: b.bottom, normal: {penalty: 2e4}}]
+steps: [{name: s, increments: 1, prescribe: [{on: a.bottom, uz: 0}]}]
+)";
+  const std::string deck = written(text);
+  EXPECT_THAT(deck, HasSubstr("*CONTACT EXCLUSIONS\n"));
+  const Description d = parse_model(translate_deck(deck, "model.inp").root, "model.inp");
+  ASSERT_EQ(d.contact.size(), 2U);
+  EXPECT_TRUE(d.contact[1].all);
+  EXPECT_EQ(contact::penalty_of(d.contact[0].normal.law.law), 2e4);
+  EXPECT_EQ(contact::penalty_of(d.contact[1].normal.law.law), 1e4);
+  EXPECT_EQ(d.contact[1].exclude_surfaces.size(), 1U);
+}
+
 TEST(ToInp, DampingThatComesAndGoesGoesThereAndBack) {
   const auto with = [](const std::string& first, const std::string& second) {
     return R"(osculate: 1
