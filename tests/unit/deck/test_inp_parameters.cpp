@@ -137,6 +137,43 @@ TEST(InpParameters, NumbersOfStepsAndAmplitudes) {
               HasSubstr("    - [0, 2]\n    - [0.25, 2]\n    - [0.75, 3]\n    - [1, 3]\n"));
 }
 
+// Abaqus: x^3 (10 - 15 x + 6 x^2) between two points, level at both.
+TEST(InpParameters, AmplitudesThatAreNoTables) {
+  const auto written = [](const std::string& amplitude) {
+    return to_yaml(
+        deck_with("*AMPLITUDE, NAME=A, " + amplitude + in_step("*CLOAD, AMPLITUDE=A\nTOP, 1, 1.\n"))
+            .root);
+  };
+  const std::string smooth = written("DEFINITION=SMOOTH STEP\n0., 0., 0.5, 2., 1., 2.\n");
+  EXPECT_THAT(smooth, HasSubstr("    - [0, 0]\n"));
+  EXPECT_THAT(smooth, HasSubstr("    - [0.125, 0.20703125]\n"));
+  EXPECT_THAT(smooth, HasSubstr("    - [0.25, 1]\n"));
+  EXPECT_THAT(smooth, HasSubstr("    - [0.5, 2]\n    - [1, 2]\n"));
+  EXPECT_THAT(written("DEFINITION=EQUALLY SPACED, FIXED INTERVAL=0.25, BEGIN=0.5\n1., 3., 2.\n"),
+              HasSubstr("    - [0, 1]\n    - [0.5, 1]\n    - [0.75, 3]\n    - [1, 2]\n"));
+  const auto refused = [&](const std::string& amplitude) {
+    try {
+      (void)written(amplitude);
+    } catch (const core::InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  EXPECT_THAT(refused("DEFINITION=PERIODIC\n1, 2., 0., 1.\n"),
+              HasSubstr("DEFINITION=PERIODIC is not supported"));
+  EXPECT_THAT(refused("DEFINITION=EQUALLY SPACED\n1., 3.\n"), HasSubstr("FIXED INTERVAL"));
+  EXPECT_THAT(refused("VALUE=ABSOLUTE\n0., 0., 1., 1.\n"),
+              HasSubstr("VALUE=ABSOLUTE is not supported"));
+}
+
+TEST(InpParameters, ViscousForcesOfStabilizeAreToldOf) {
+  const TranslatedDeck deck =
+      deck_with(steel + fixed + "*STEP\n*STATIC, STABILIZE=0.0002, ALLSDTOL=0\n*END STEP\n");
+  EXPECT_TRUE(std::ranges::any_of(deck.notes, [](const std::string& note) {
+    return note.find("without the viscous forces of STABILIZE") != std::string::npos;
+  }));
+}
+
 TEST(InpParameters, BoundsOfFrequenciesAreListed) {
   TranslatedDeck deck = deck_with(
       "*MATERIAL, NAME=A\n*ELASTIC\n1., 0.\n*DENSITY\n1.\n*SOLID SECTION, ELSET=E, MATERIAL=a\n"
