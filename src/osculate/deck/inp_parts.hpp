@@ -88,6 +88,9 @@ void check_parameters(InpModel& m);
 
 // ---- the keys of a model file -----------------------------------------------------------------
 
+/// A plastic strain that nothing reaches: a curve of kinematic hardening of two points that ends
+/// there is a modulus.
+inline constexpr double inp_far_strain = 100;
 [[nodiscard]] SourceNode inp_materials(InpModel& m);
 /// A material as the model file calls it: by its name in capital and small letters.
 [[nodiscard]] std::string material_named(const InpModel& m, std::string_view name);

@@ -33,24 +33,56 @@ std::string refused_metal(const std::string& plastic) {
   return "";
 }
 
-TEST(InpPlastic, CombinedHardeningIsATableBesideAModulus) {
+/// Two points at one temperature.
+const core::Table two_points{{0, 0}, {800, 0.1}};
+
+TEST(InpPlastic, CombinedHardeningIsATableBesideACurve) {
   const material::J2Plasticity both = metal(
       "*PLASTIC, HARDENING=COMBINED\n800., 0.\n1600., 0.1\n"
       "*CYCLIC HARDENING\n500., 0.\n600., 0.02\n650., 0.1\n");
-  EXPECT_EQ(both.kinematic, 8000);
+  EXPECT_EQ(both.kinematic_over.at(0).points, two_points);
   EXPECT_EQ(both.hardening, (core::Table{{500, 0}, {600, 0.02}, {650, 0.1}}));
   EXPECT_EQ(both.yield, 0);
   const material::J2Plasticity steady =
       metal("*PLASTIC, HARDENING=COMBINED\n800., 0.\n1600., 0.1\n*CYCLIC HARDENING\n500., 0.\n");
   EXPECT_EQ(steady.yield, 500);
-  EXPECT_EQ(steady.kinematic, 8000);
+  EXPECT_EQ(steady.kinematic_over.at(0).points, two_points);
   for (const char* const kind : {"COMBINED", "KINEMATIC"}) {
     const material::J2Plasticity moved =
         metal(std::string("*PLASTIC, HARDENING=") + kind + "\n800., 0.\n1600., 0.1\n");
     EXPECT_EQ(moved.yield, 800);
-    EXPECT_EQ(moved.kinematic, 8000);
+    EXPECT_EQ(moved.kinematic, 0);
+    EXPECT_EQ(moved.kinematic_over.at(0).points, two_points);
     EXPECT_TRUE(moved.hardening.empty());
   }
+}
+
+// Two points end at the second one, at one temperature as at several, as in CalculiX; Abaqus' slope
+// goes on, which is said by a second point where nothing comes.
+TEST(InpPlastic, TwoPointsOfKinematicHardeningAreACurveAtAnyTemperature) {
+  const auto points = [](const std::string& plastic, std::size_t curve) {
+    return metal("*PLASTIC, HARDENING=KINEMATIC\n" + plastic +
+                 "*INITIAL CONDITIONS, TYPE=TEMPERATURE\n1, 20.\n")
+        .kinematic_over.at(curve)
+        .points;
+  };
+  EXPECT_EQ(points("800., 0.\n1600., 0.1\n", 0), two_points);
+  for (const std::size_t curve : {0, 1})
+    EXPECT_EQ(points("800., 0., 0.\n1600., 0.1, 0.\n801., 0., 90.\n1601., 0.1, 90.\n", curve),
+              two_points);
+  const material::J2Plasticity far =
+      metal("*PLASTIC, HARDENING=KINEMATIC\n800., 0.\n1.6E6, 200.\n");
+  EXPECT_EQ(far.kinematic, 7996);
+  EXPECT_TRUE(far.kinematic_over.empty());
+  const auto notes = [](const std::string& plastic) {
+    std::size_t found = 0;
+    for (const std::string& note : metal_deck("*PLASTIC, HARDENING=KINEMATIC\n" + plastic).notes)
+      found += note.find("two points are a slope") != std::string::npos;
+    return found;
+  };
+  EXPECT_EQ(notes("800., 0.\n1600., 0.1\n"), 1U);
+  EXPECT_EQ(notes("800., 0.\n1600., 0.1\n1700., 0.2\n"), 0U);
+  EXPECT_EQ(notes("800., 0.\n1.6E6, 200.\n"), 0U);
 }
 
 // As CalculiX: with a yield stress of 0 the answers are those of creep alone.

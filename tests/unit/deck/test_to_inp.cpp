@@ -255,6 +255,7 @@ TEST(ToInp, MaterialsGoThereAndBack) {
        "elastoplastic: {E: 1000, nu: 0.25, yield: 3, kinematic: 20}",
        "elastoplastic: {E: [[0, 1000], [100, 800]], nu: 0.25, hardening: [[3, 0, 0], [4, 0.1, 0], "
        "[2, 0, 100]], kinematic: 20}",
+       "elastoplastic: {E: 1000, nu: 0.25, yield: 3, kinematic: [[0, 0], [1, 0.125]]}",
        "elastoplastic: {E: 1000, nu: 0.25, yield: 3, kinematic: [[0, 0], [1, 0.125], [1.5, 0.25]]}",
        "elastoplastic: {E: 1000, nu: 0.25, hardening: [[3, 0, 0], [2, 0, 100]], kinematic: [[0, 0, "
        "0], [1, 0.5, 0], [0, 0, 100], [2, 0.5, 100]]}",
@@ -417,6 +418,23 @@ Contact pair_again(const std::string& keys, std::string& text) {
                         "5e3}}",
                         keys));
   return parse_model(translate_deck(text, "model.inp").root, "model.inp").contact.at(0);
+}
+
+// What CalculiX passes over is said.
+TEST(ToInp, AClearanceOfNodesIsLostInCalculix) {
+  const auto lost = [](const std::string& sampling) {
+    const std::string text =
+        edited(blocks, "normal: {penalty: 1e4}, friction: {coulomb: {mu: 0.2, penalty: 5e3}}",
+               "normal: {penalty: 1e4}, initial: {clearance: -0.01}, sampling: " + sampling);
+    const Description d = parse_model(text, "model.yaml");
+    const WrittenDeck deck = write_deck(d, build_any(d, load_mesh(d)));
+    std::size_t found = 0;
+    for (const std::string& note : deck.notes)
+      found += note.find("*CLEARANCE") != std::string::npos;
+    return found;
+  };
+  EXPECT_EQ(lost("nodes"), 1U);
+  EXPECT_EQ(lost("{gauss: 2}"), 0U);
 }
 
 TEST(ToInp, LawsOfContactGoThereAndBack) {
