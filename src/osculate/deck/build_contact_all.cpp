@@ -95,6 +95,7 @@ void add_rigid_bodies(BuildContext<Dim>& c, std::vector<Body<Dim>>& bodies) {
              c.section_of_node[static_cast<std::size_t>(n)] >= 0;
     };
     if (std::any_of(nodes.begin(), nodes.end(), in_section)) continue;
+    if (nodes.size() == 1) continue;  // a point that carries loads touches nothing
     Body<Dim> body;
     body.label = rigid.name.value;
     body.rigid = true;

@@ -67,15 +67,20 @@ pairing::HiddenFacets hidden_facets(const std::vector<std::array<SurfaceNodes, 2
     for (std::size_t k = 0; k < 2 * apart.size(); ++k)
       if (apart[k / 2][k % 2].nodes.contains(slave[i])) on.push_back(k);
     if (on.empty()) continue;
-    const auto [found, fresh] = kinds.try_emplace(on, static_cast<int>(out.kinds.size()));
-    out.of_node[i] = found->second;
-    if (!fresh) continue;
-    std::vector<bool>& hidden = out.kinds.emplace_back();
-    for (const auto& facet : master.facets) {
-      const std::vector<Index> nodes = sorted_nodes(facet);
-      hidden.push_back(std::ranges::any_of(
-          on, [&](std::size_t k) { return apart[k / 2][1 - k % 2].has(nodes); }));
+    const auto [found, fresh] = kinds.try_emplace(on, -1);
+    if (fresh) {
+      std::vector<bool> hidden;
+      for (const auto& facet : master.facets) {
+        const std::vector<Index> nodes = sorted_nodes(facet);
+        hidden.push_back(std::ranges::any_of(
+            on, [&](std::size_t k) { return apart[k / 2][1 - k % 2].has(nodes); }));
+      }
+      if (std::ranges::find(hidden, true) != hidden.end()) {
+        found->second = static_cast<int>(out.kinds.size());
+        out.kinds.push_back(std::move(hidden));
+      }
     }
+    out.of_node[i] = found->second;
   }
   if (out.kinds.empty()) out.of_node.clear();
   return out;

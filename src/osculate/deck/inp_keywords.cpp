@@ -109,7 +109,7 @@ constexpr std::array<InpKeyword, 149> keywords{{
      "INTERACTION, TYPE, ADJUST, SMALL SLIDING; HCRIT, EXTENSION ZONE, SMOOTH, TRACKING, CPSET, "
      "SLIDING TRANSITION, SUPPLEMENTARY CONSTRAINTS, MECHANICAL CONSTRAINT",
      "slave, master", translated, "`contact`: slave, master, sampling, `initial: adjust`"},
-    {"CONTACT", "", "", translated, "`contact: {all: ...}`, or pairs"},
+    {"CONTACT", "OP", "", translated, "`contact: {all: ...}`, or pairs"},
     {"CONTACT INCLUSIONS", "ALL EXTERIOR", "pairs of surfaces", translated,
      "`contact: {all: ...}`; pairs with `two_pass`"},
     {"CONTACT EXCLUSIONS", "", "pairs of surfaces", translated,

@@ -118,6 +118,16 @@ TEST(InpGeneralContact, WhatIsPairedOrTiedDoesNotTouchByAllAsWell) {
   EXPECT_EQ(model.contact[0].exclude_surfaces.at(0)[1].value, "A2");
 }
 
+// The reference node of a coupling is a rigid body of one node, which is nothing to warn of.
+TEST(InpGeneralContact, ReferenceNodesTouchNothing) {
+  const std::string all =
+      "*CONTACT\n*CONTACT INCLUSIONS, ALL EXTERIOR\n*CONTACT PROPERTY ASSIGNMENT\n, , SI\n";
+  const std::string reference =
+      "*NODE\n99, 0.5, 0.5, 4.\n*SURFACE, NAME=C2\n3, S2\n"
+      "*COUPLING, CONSTRAINT NAME=C, REF NODE=99, SURFACE=C2\n*DISTRIBUTING\n1, 6\n";
+  EXPECT_THAT(run_deck(cubes + reference + all + press).built.warnings, ::testing::IsEmpty());
+}
+
 // Without its exclusion the low cube holds the middle one, with it nothing does.
 TEST(InpGeneralContact, SurfacesThatAreExcludedPassThroughEachOther) {
   const std::string all =

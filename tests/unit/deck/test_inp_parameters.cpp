@@ -60,7 +60,6 @@ TEST(InpParameters, MistakesAndWhatChangesTheAnswerStop) {
        "*ELASTIC: unknown parameter 'DEPENDENCIES'"},
       {"*MATERIAL, NAME=A\n*PLASTIC, RATE=1.\n1., 0.\n" + end, "unknown parameter 'RATE'"},
       {"*MATERIAL, NAME=A\n*EXPANSION, USER\n" + end, "*EXPANSION: unknown parameter 'USER'"},
-      {steel + "*STEP\n*STATIC, STABILIZE\n*END STEP\n", "*STATIC: unknown parameter 'STABILIZE'"},
       {"*TIE, NAME=T, CONSTRAINT RATIO=0.5\nA, B\n" + end,
        "*TIE: unknown parameter 'CONSTRAINTRATIO'"},
       {"*COUPLING, REF NODE=1, SURFACE=S, CONSTRAINT NAME=C, INFLUENCE RADIUS=2.\n*KINEMATIC\n" +
