@@ -152,6 +152,11 @@ void add_contact_pair(InpModel& m, const Card& card, const InpInteraction& law, 
   const auto lines = io::inp::lines_of(m.deck, card);
   if (lines.empty()) io::inp::fail(m.deck, card, "expected a line with two surfaces");
   const bool is_of_nodes = option_of(card, "TYPE") == "NODETOSURFACE";
+  const bool has_shells = std::ranges::any_of(
+      m.deck.cards, [](const Card& one) { return one.keyword == "SHELLSECTION"; });
+  if (has_shells && io::inp::find_parameter(card, "NOTHICKNESS"))
+    io::inp::fail(m.deck, card,
+                  "NO THICKNESS is not supported with shells, whose surfaces are those of solids");
   for (const Line& line : lines) {
     SourceNode& pair = pair_of_line(m, card, line, pairs);
     const std::string slave = find(pair, "slave")->text;  // the pair's keys move when one is added

@@ -191,10 +191,18 @@ void read_distributed(const InpReading& r, const Card& card) {
       if (option_of(card, "LOADCASE") == "2")
         fields.fail("CENTRIF with LOAD CASE=2 is not supported");
       read_centrifugal(r, one);
+    } else if (load == "BX" || load == "BY" || load == "BZ") {
+      const int direction = load[1] - 'X' + 1;
+      if (direction > inp_dimension(r.m)) fields.fail("the force points out of the plane");
+      const std::string& on =
+          set_of(r.m, line.at, io::inp::element_set_name(one.elements), {SetKind::elements});
+      set_condition(r.m, part.body_forces, {on, direction}, fields.real("the force per volume"),
+                    said, line, true);
     } else {
-      fields.fail(
-          fmt::format("load {} is not supported: P1 to P6, EDNOR1 to EDNOR4, GRAV or CENTRIF",
-                      io::inp::shown(load)));
+      fields.fail(fmt::format(
+          "load {} is not supported: P1 to P6, EDNOR1 to EDNOR4, GRAV, CENTRIF, BX, BY or "
+          "BZ",
+          io::inp::shown(load)));
     }
   }
 }

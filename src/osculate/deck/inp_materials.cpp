@@ -68,9 +68,11 @@ core::Curves that_differ(core::Curves curves) {
 /// Stress over plastic strain, one curve a temperature.
 core::Curves hardening_of(const InpModel& m, const Card& card) {
   core::Curves curves;
+  const io::inp::Parameter* const given = io::inp::find_parameter(card, "SCALE");
+  const double scale = given ? Fields(m.deck, {given->value, card.at}).real("SCALE") : 1;
   for (const Line& line : io::inp::lines_of(m.deck, card)) {
     Fields fields(m.deck, line);
-    const double stress = fields.real("the yield stress");
+    const double stress = scale * fields.real("the yield stress");
     const double strain = fields.real_or_zero("the plastic strain");
     const double temperature = fields.real_or_zero("a temperature");
     fields.expect_end();

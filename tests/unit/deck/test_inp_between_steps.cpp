@@ -189,6 +189,33 @@ TEST(InpBetweenSteps, LawsThatAreNoPenalty) {
   EXPECT_EQ(message_of(dry + adjusted + press), "no error");
 }
 
+TEST(InpBetweenSteps, LawsOfAbaqus) {
+  const auto contact = [&](const std::string& law) {
+    return part("*SURFACE INTERACTION, NAME=LAW\n" + law +
+                    "*CONTACT PAIR, INTERACTION=LAW, TYPE=SURFACE TO SURFACE\nSLAVE, MASTER\n" +
+                    press,
+                "contact");
+  };
+  // mu = mu_k + (mu_s - mu_k) exp(-d V)
+  expect_in(contact("*FRICTION, EXPONENTIAL DECAY\n0.3, 0.2, 4.\n"),
+            "coulomb: {mu: 0.3, kinetic: 0.2, decay: {speed: 0.25}}");
+  expect_in(contact("*FRICTION, EXPONENTIAL DECAY\n0.3, 0.2, 0.\n"), "coulomb: {mu: 0.3}");
+  expect_in(contact("*SURFACE BEHAVIOR, NO SEPARATION, PRESSURE-OVERCLOSURE=HARD\n"),
+            "normal: {separation: no_separation}");
+  expect_in(contact("*SURFACE BEHAVIOR, NO SEPARATION, PRESSURE-OVERCLOSURE=LINEAR\n5E4\n"),
+            "normal: {separation: no_separation, penalty: 50000}");
+  expect_in(message_of("*SURFACE INTERACTION, NAME=LAW\n*SURFACE BEHAVIOR, NO SEPARATION, "
+                       "PRESSURE-OVERCLOSURE=TIED\n5E4\n*CONTACT PAIR, INTERACTION=LAW, "
+                       "TYPE=SURFACE TO SURFACE\nSLAVE, MASTER\n" +
+                       press),
+            "NO SEPARATION does not go with TIED");
+  EXPECT_EQ(message_of(dry +
+                       "*CONTACT PAIR, INTERACTION=DRY, TYPE=SURFACE TO SURFACE, NO "
+                       "THICKNESS\nSLAVE, MASTER\n" +
+                       press),
+            "no error");
+}
+
 TEST(InpBetweenSteps, DampingComesAndGoesWithInertia) {
   const std::string in_time = "*STEP\n*DYNAMIC, DIRECT\n0.1, 1.\n*END STEP\n";
   const std::string vibrations = "*STEP\n*FREQUENCY\n2\n*END STEP\n";

@@ -118,6 +118,12 @@ std::string cube(const std::string& conditions, const std::string& loads) {
          conditions + "*STEP\n*STATIC\n" + loads + "*END STEP\n";
 }
 
+TEST(InpCae, ForcesPerVolume) {
+  const DeckRun run =
+      run_deck(cube("*BOUNDARY\nBASE, 1, 3\n", "*DLOAD\nE, BX, 3.\nE, BZ, -2.\n1, BZ, 1.\n"));
+  EXPECT_LT((run.reaction_of("BASE") - Vec3(-3, 0, 1)).norm(), 1e-9);
+}
+
 /// A traction of 5 on the unit face at the top, whatever the length of its vector.
 TEST(InpCae, TractionsOfConstantDirection) {
   const std::string face = "*SURFACE, NAME=S\nE, S2\n*BOUNDARY\nBASE, 1, 3\n";

@@ -85,6 +85,11 @@ TEST(InpPlastic, TwoPointsOfKinematicHardeningAreACurveAtAnyTemperature) {
   EXPECT_EQ(notes("800., 0.\n1.6E6, 200.\n"), 0U);
 }
 
+TEST(InpPlastic, AScaleIsOneOfTheStresses) {
+  EXPECT_EQ(metal("*PLASTIC, SCALE=1.5\n800., 0.\n1000., 0.1\n").hardening,
+            (core::Table{{1200, 0}, {1500, 0.1}}));
+}
+
 // As CalculiX: with a yield stress of 0 the answers are those of creep alone.
 TEST(InpPlastic, AYieldStressOfZeroBesideCreepIsCreep) {
   const Description d = metal_deck("*PLASTIC\n0., 0.\n0., 10.\n*CREEP\n1.E-10, 5., 0.\n");
