@@ -8,7 +8,7 @@ namespace {
 
 using enum KeywordUse;
 
-constexpr std::array<InpKeyword, 149> keywords{{
+constexpr std::array<InpKeyword, 150> keywords{{
     {"HEADING", "", "a title", silent, ""},
     {"INCLUDE", "INPUT", "", mesh, "the lines of the file"},
     {"NODE", "NSET, SYSTEM, INPUT", "number, x, y, z", mesh, "nodes, and a set of them"},

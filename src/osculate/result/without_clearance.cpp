@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "osculate/mesh/boundary.hpp"
+
 namespace osculate::result {
 
 template <int Dim>
