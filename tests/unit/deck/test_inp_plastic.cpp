@@ -12,14 +12,17 @@ namespace {
 
 using ::testing::HasSubstr;
 
-Description metal_deck(const std::string& plastic) {
+TranslatedDeck translated_metal(const std::string& plastic) {
   const std::string text =
       "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 1, 1, 0\n4, 0, 1, 0\n5, 0, 0, 1\n6, 1, 0, 1\n7, 1, 1, 1\n"
       "8, 0, 1, 1\n*ELEMENT, TYPE=C3D8, ELSET=E\n1, 1, 2, 3, 4, 5, 6, 7, 8\n*MATERIAL, NAME=M\n"
       "*ELASTIC\n200000., 0.3\n" +
       plastic +
       "*SOLID SECTION, ELSET=E, MATERIAL=M\n*STEP\n*STATIC\n*BOUNDARY\n1, 1, 3\n*END STEP\n";
-  return parse_model(translate_deck(text, "a.inp").root, "a.inp");
+  return translate_deck(text, "a.inp");
+}
+Description metal_deck(const std::string& plastic) {
+  return parse_model(translated_metal(plastic).root, "a.inp");
 }
 material::J2Plasticity metal(const std::string& plastic) {
   return std::get<material::J2Plasticity>(metal_deck(plastic).materials.at(0).law.value);
@@ -76,7 +79,8 @@ TEST(InpPlastic, TwoPointsOfKinematicHardeningAreACurveAtAnyTemperature) {
   EXPECT_TRUE(far.kinematic_over.empty());
   const auto notes = [](const std::string& plastic) {
     std::size_t found = 0;
-    for (const std::string& note : metal_deck("*PLASTIC, HARDENING=KINEMATIC\n" + plastic).notes)
+    const TranslatedDeck deck = translated_metal("*PLASTIC, HARDENING=KINEMATIC\n" + plastic);
+    for (const std::string& note : deck.notes)
       found += note.find("two points are a slope") != std::string::npos;
     return found;
   };
