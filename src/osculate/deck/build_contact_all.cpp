@@ -238,22 +238,6 @@ void note_bodies(BuildContext<Dim>& c, const std::vector<Body<Dim>>& bodies) {
   }
 }
 
-/// Contacts that are not looked for by the nearest place of a node do not know what is left out.
-template <int Dim>
-void refuse_exclusions(const BuildContext<Dim>& c, const Contact& contact) {
-  if (contact.exclude_surfaces.empty() && c.description.contact.size() == 1) return;
-  constexpr const char* why = "know no `pairs` beside `all` and no `exclude_surfaces`";
-  if (contact.edges)
-    throw core::InputError(contact.edges->mark,
-                           fmt::format("edges that touch each other {}: leave out edges", why));
-  if (contact.enforcement.value.kind == EnforcementWord::lagrange_multiplier)
-    throw core::InputError(
-        contact.enforcement.mark,
-        fmt::format("unknown tractions hold points in re-entrant edges, which {}: use penalty or "
-                    "augmented_lagrange",
-                    why));
-}
-
 }  // namespace
 
 template <int Dim>
@@ -264,7 +248,10 @@ void build_contact_all(BuildContext<Dim>& c, const Contact& contact) {
   measure_bodies(c, bodies);
   note_bodies(c, bodies);
   const std::vector<std::array<SurfaceNodes, 2>> apart = not_by_all(c, contact);
-  refuse_exclusions(c, contact);
+  if (contact.edges && (!contact.exclude_surfaces.empty() || c.description.contact.size() > 1))
+    throw core::InputError(contact.edges->mark,
+                           "edges that touch each other know no `pairs` beside `all` and no "
+                           "`exclude_surfaces`: leave out edges");
   if (!apart.empty())
     c.built.notes.push_back(fmt::format(
         "contact '{}': {} pairs of surfaces are left out: excluded, tied, or pairs of their own",

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "osculate/mesh/boundary.hpp"
+#include "osculate/pairing/placed_points.hpp"
 
 namespace osculate::result {
 
@@ -17,8 +18,8 @@ std::string without_clearance(const model::BasicModel<Dim>& model,
     if (contact.points[i].status != contact::Status::open && state.overlap[i] == 0)
       found.push_back(i);
   if (found.empty()) return {};
-  const auto start = pairing::initial_state<Dim>(pair.definition, model.reference);
-  std::erase_if(found, [&](std::size_t i) { return start.points[i].facet >= 0; });
+  const std::vector<bool> placed = pairing::placed_points<Dim>(pair.definition, model.reference);
+  std::erase_if(found, [&](std::size_t i) { return placed[i]; });
   if (found.empty()) return {};
   return fmt::format(
       "warning: contact '{}': {} points are in contact that had no place on the master at the "

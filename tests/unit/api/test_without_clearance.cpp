@@ -23,7 +23,7 @@ mesh:
 materials: {{m: {{linear_elastic: {{E: 100, nu: 0}}}}}}
 sections: [{{on: block, material: m, element: plane_strain}}]
 rigid: {{base: {{set: rail}}}}
-contact: [{{name: floor, master: base, slave: block.bottom, sampling: nodes, normal: {{penalty: 100}}{}}}]
+contact: [{{name: floor, master: base, slave: block.bottom, sampling: nodes, normal: {{penalty: 1e4}}{}}}]
 steps:
   - {{name: press, increments: 1, prescribe: [{{on: block.top, ux: 0, uy: -0.015}}]}}
   - {{name: drag, increments: 1, prescribe: [{{on: block.top, ux: {}}}]}}

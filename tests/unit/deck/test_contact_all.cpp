@@ -151,10 +151,6 @@ TEST(ContactAll, Refusals) {
   };
   expect(build_refusal(edited(text, "[low, top]", "[low, tpo]")),
          "contact.all.exclude[0][1]: unknown body 'tpo'; known: 1, 2, 3, floor, low, mid, top");
-  expect(build_refusal(beside("    exclude_surfaces: [[mid.bottom, low.top]]\n"
-                              "    enforcement: lagrange_multiplier\n",
-                              "", "")),
-         "which know no `pairs` beside `all`");
   expect(build_refusal(beside("    exclude_surfaces: [[mid.bottom, lo.top]]\n", "", "")),
          "unknown set 'lo.top'");
   expect(

@@ -198,7 +198,7 @@ TEST(InpBetweenSteps, LawsOfAbaqus) {
   };
   // mu = mu_k + (mu_s - mu_k) exp(-d V)
   expect_in(contact("*FRICTION, EXPONENTIAL DECAY\n0.3, 0.2, 4.\n"),
-            "coulomb: {mu: 0.3, kinetic: 0.2, decay: {speed: 0.25}}");
+            "mu: 0.3\n        kinetic: 0.2\n        decay: {speed: 0.25}\n");
   expect_in(contact("*FRICTION, EXPONENTIAL DECAY\n0.3, 0.2, 0.\n"), "coulomb: {mu: 0.3}");
   expect_in(contact("*SURFACE BEHAVIOR, NO SEPARATION, PRESSURE-OVERCLOSURE=HARD\n"),
             "normal: {separation: no_separation}");
