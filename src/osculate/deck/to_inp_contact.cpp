@@ -107,6 +107,7 @@ double written_damping(const Description& d, const Contact& contact, const std::
 std::string written_laws(const Description& d, const Contact& contact, const std::string& path,
                          const std::string& name, Leaves& leaves) {
   std::string out = fmt::format("*SURFACE INTERACTION, NAME={}\n", name);
+  (void)leaves.text(path + ".normal");  // {}: hard
   out += written_pressure(path + ".normal", leaves);
   const WrittenShear shear = written_shear(path + ".friction", leaves);
   out += shear.text;

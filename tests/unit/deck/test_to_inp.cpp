@@ -460,6 +460,9 @@ TEST(ToInp, LawsOfContactGoThereAndBack) {
   EXPECT_THAT(text, HasSubstr("LINEAR\n10000, 2, 0.01\n"));
   EXPECT_THAT(text, HasSubstr("*SURFACE, NAME=high.bottom_nodes, TYPE=NODE\nhigh.bottom,\n"));
   EXPECT_EQ(pair.area_by, AreaWord::around);
+  pair = pair_again("sampling: {gauss: 2}, normal: {}", text);
+  EXPECT_THAT(text, HasSubstr("*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=HARD\n"));
+  EXPECT_TRUE(pair.normal.law.automatic);
   pair = pair_again("sampling: mortar, enforcement: lagrange_multiplier", text);
   EXPECT_EQ(pair.enforcement.value.kind, EnforcementWord::lagrange_multiplier);
   pair = pair_again("sampling: mortar, normal: {penalty: 1e4}", text);
