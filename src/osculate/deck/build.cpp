@@ -69,9 +69,11 @@ model::AnalysisOptions analysis_options(const Solver& solver) {
 }  // namespace
 
 void check_durations(const Description& description, const std::optional<core::SourceMark>& timed,
-                     std::string_view what) {
+                     std::string_view what, const StepRange& acts) {
   if (!timed) return;
-  for (const Step& step : description.steps)
+  const std::size_t end = std::min(acts.end, description.steps.size());
+  for (const Step& step :
+       std::span(description.steps).first(end).subspan(std::min(acts.first, end)))
     if (!step.duration && !step.modes && !step.buckling && !step.harmonic)
       throw core::InputError(*timed,
                              fmt::format("{} needs the duration of every step, and step '{}' has "

@@ -95,6 +95,7 @@ void add_rigid_bodies(BuildContext<Dim>& c, std::vector<Body<Dim>>& bodies) {
              c.section_of_node[static_cast<std::size_t>(n)] >= 0;
     };
     if (std::any_of(nodes.begin(), nodes.end(), in_section)) continue;
+    if (nodes.size() == 1) continue;  // a point that carries loads touches nothing
     Body<Dim> body;
     body.label = rigid.name.value;
     body.rigid = true;
@@ -186,12 +187,16 @@ bool has_second_pass(const Body<Dim>& a, const Body<Dim>& b, const Contact& cont
 }
 
 template <int Dim>
-void add_pairs(BuildContext<Dim>& c, const Contact& contact, const Body<Dim>& a,
-               const Body<Dim>& b) {
+void add_pairs(BuildContext<Dim>& c, const Contact& contact, const Body<Dim>& a, const Body<Dim>& b,
+               const std::vector<std::array<SurfaceNodes, 2>>& apart) {
+  const auto hide = [&](pairing::PairDefinition<Dim>& pair) {
+    pair.filter.hidden = hidden_facets<Dim>(apart, pair.slave.nodes, pair.master);
+  };
   model::BasicContactPair<Dim> first = pair_of(a, b, contact);
   if (b.rigid)
     face_slave(c, contact, {b.label, contact.name.mark}, first.definition.slave.nodes,
                first.definition.master);
+  hide(first.definition);
   if (!has_second_pass(a, b, contact))
     return add_pair(c, contact, contact.name.mark, std::move(first));
   const bool first_is_master = roles(a, b).first_is_master;
@@ -202,6 +207,7 @@ void add_pairs(BuildContext<Dim>& c, const Contact& contact, const Body<Dim>& a,
   second.definition.master = first.definition.slave.boundary;
   second.definition.slave = pairing::make_slave_side(first.definition.master);
   second.definition.filter.thickness = (first_is_master ? a : b).thickness;
+  hide(second.definition);
   first.definition.pass_factor = second.definition.pass_factor = 0.5;
   add_pair(c, contact, contact.name.mark, std::move(first));
   add_pair(c, contact, contact.name.mark, std::move(second));
@@ -241,12 +247,21 @@ void build_contact_all(BuildContext<Dim>& c, const Contact& contact) {
   check_excluded(bodies, contact);
   measure_bodies(c, bodies);
   note_bodies(c, bodies);
+  const std::vector<std::array<SurfaceNodes, 2>> apart = not_by_all(c, contact);
+  if (contact.edges && (!contact.exclude_surfaces.empty() || c.description.contact.size() > 1))
+    throw core::InputError(contact.edges->mark,
+                           "edges that touch each other know no `pairs` beside `all` and no "
+                           "`exclude_surfaces`: leave out edges");
+  if (!apart.empty())
+    c.built.notes.push_back(fmt::format(
+        "contact '{}': {} pairs of surfaces are left out: excluded, tied, or pairs of their own",
+        contact.name.value, apart.size()));
   const std::size_t before = c.model().pairs.size();
   for (std::size_t i = 0; i < bodies.size() && !bodies[i].rigid; ++i)
     for (std::size_t j = i; j < bodies.size(); ++j)
       if (!excluded(bodies[i], bodies[j], contact) && !bodies[i].surface.facets.empty() &&
           !bodies[j].surface.facets.empty())
-        add_pairs(c, contact, bodies[i], bodies[j]);
+        add_pairs(c, contact, bodies[i], bodies[j], apart);
   if (c.model().pairs.size() == before)
     throw core::InputError(contact.name.mark, "no pair of bodies is left that may touch");
 }

@@ -72,6 +72,17 @@ template <int Dim>
 void set_laws(const BuildContext<Dim>& c, const Contact& contact,
               pairing::PairDefinition<Dim>& pair);
 
+/// The steps in which a law of a pair acts that it has from a step on: up to the next one that says
+/// another `law` of the pair of that name.
+template <class Law>
+[[nodiscard]] StepRange steps_of_law(const Description& d, const std::string& pair,
+                                     std::size_t first, Law ContactChange::*law) {
+  for (std::size_t s = first; s < d.steps.size(); ++s)
+    for (const ContactChange& change : d.steps[s].contact)
+      if (change.pair.value == pair && (change.*law).has_value()) return {first, s};
+  return {first};
+}
+
 /// Counts the points of a prepared pair that are tied; throws where there are none.
 template <int Dim>
 void note_tied(BuildContext<Dim>& c, const Contact& contact,
@@ -85,6 +96,26 @@ template <int Dim>
 }
 
 using pairing::search_distance_in_facets;
+
+/// A surface by its nodes, and its facets by theirs, in order. Without facets: those whose nodes it
+/// has.
+struct SurfaceNodes {
+  std::set<Index> nodes;
+  std::set<std::vector<Index>> facets;
+  [[nodiscard]] bool has(std::vector<Index> facet) const;
+};
+/// Surfaces that do not touch by `all`: `exclude_surfaces`, pairs of their own, and nodes that are
+/// tied with their masters.
+template <int Dim>
+[[nodiscard]] std::vector<std::array<SurfaceNodes, 2>> not_by_all(const BuildContext<Dim>& c,
+                                                                  const Contact& all);
+/// What of a master the slave's nodes do not touch, by those.
+///
+/// Tested by  tests/unit/deck/test_contact_all.cpp
+template <int Dim>
+[[nodiscard]] pairing::HiddenFacets hidden_facets(
+    const std::vector<std::array<SurfaceNodes, 2>>& apart, const std::vector<Index>& slave,
+    const pairing::Boundary<Dim>& master);
 
 /// The pairs that `contact: {all: ...}` stands for.
 template <int Dim>

@@ -1,5 +1,6 @@
 #pragma once
 // Shared by the build_*.cpp files; not for users.
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -24,9 +25,13 @@ using model::Side;
 /// Throws core::InputError at `mark` for a node off the plane z = 0.
 void require_in_plane(const mesh::Mesh& mesh, const core::SourceMark& mark);
 
-/// Where something depends on time (`timed`), every step says how long it takes.
+/// Steps from one on, up to another one that is not among them.
+struct StepRange {
+  std::size_t first = 0, end = std::numeric_limits<std::size_t>::max();
+};
+/// Where something depends on time (`timed`), every step in which it acts says how long it takes.
 void check_durations(const Description& description, const std::optional<core::SourceMark>& timed,
-                     std::string_view what);
+                     std::string_view what, const StepRange& acts = {});
 
 /// Axes of a node's displacement components, by columns, and the node that carries them as
 /// unknowns; -1: none does.

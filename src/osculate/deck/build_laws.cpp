@@ -36,11 +36,15 @@ void set_laws(const BuildContext<Dim>& c, const Contact& contact,
   pair.offset = contact.offset;
   if (n.damping) {
     pair.damping = n.damping->law;
-    check_durations(c.description, n.damping->timed, "damping that depends on speed");
+    check_durations(c.description, n.damping->timed, "damping that depends on speed",
+                    steps_of_law(c.description, contact.name.value, 0, &ContactChange::damping));
   }
   if (contact.friction) {
-    check_durations(c.description, contact.friction->timed, "friction that depends on speed");
-    for (const Step& step : c.description.steps)  // there it would hold
+    const StepRange acts =
+        steps_of_law(c.description, contact.name.value, 0, &ContactChange::friction);
+    check_durations(c.description, contact.friction->timed, "friction that depends on speed", acts);
+    const std::size_t end = std::min(acts.end, c.description.steps.size());
+    for (const Step& step : std::span(c.description.steps).first(end))  // there it would hold
       if (contact.friction->timed && (step.modes || step.buckling))
         throw core::InputError(
             *contact.friction->timed,

@@ -47,23 +47,42 @@ pairing::Separation<Dim> separation_of(const NormalDescription& n,
 }
 
 template <int Dim>
+void apply_damping(const BuildContext<Dim>& c, const ContactChange& change,
+                   model::BasicPairChange<Dim>& to) {
+  if (!change.damping) return;
+  to.damping.reset();
+  if (!*change.damping) return;
+  const GivenLaw<contact::DampingLaw>& damping = **change.damping;
+  StepRange acts =
+      steps_of_law(c.description, change.pair.value, to.step + 1, &ContactChange::damping);
+  acts.first = to.step;
+  check_durations(c.description, damping.timed, "damping that depends on speed", acts);
+  to.damping = damping.law;
+}
+
+template <int Dim>
 void apply(const BuildContext<Dim>& c, const ContactChange& change,
            const pairing::PairDefinition<Dim>& pair, model::BasicPairChange<Dim>& to) {
   if (change.active) to.active = *change.active;
   if (change.normal) {
     const NormalDescription& n = *change.normal;
     if (n.damping)
-      throw core::InputError(n.damping->mark, "damping stays the same through all steps");
+      throw core::InputError(n.damping->mark,
+                             "damping changes by the key `damping` of the change, not by `normal`");
     if (n.law.automatic) refuse_automatic(n.law.stiffness, "normal law");
     to.normal = n.law.law;
     to.separation = separation_of(n, pair);
   }
+  apply_damping(c, change, to);
   if (!change.friction) return;
   to.friction.reset();
   if (!*change.friction) return;
   const GivenLaw<contact::FrictionLaw>& friction = **change.friction;
   if (friction.automatic) refuse_automatic(friction.stiffness, "friction law");
-  check_durations(c.description, friction.timed, "friction that depends on speed");
+  StepRange acts =
+      steps_of_law(c.description, change.pair.value, to.step + 1, &ContactChange::friction);
+  acts.first = to.step;
+  check_durations(c.description, friction.timed, "friction that depends on speed", acts);
   const bool may_part = pairing::is<pairing::MayPart>(to.separation);
   to.friction = may_part ? contact::parting(friction.law) : friction.law;
 }
@@ -72,7 +91,9 @@ void apply(const BuildContext<Dim>& c, const ContactChange& change,
 template <int Dim>
 void check_changed(const ContactChange& change, pairing::PairDefinition<Dim> pair,
                    const model::BasicPairChange<Dim>& to) {
-  if (!pairing::is<pairing::ByPenalty>(pair.enforcement) || pairing::by_mortar(pair))
+  const bool other_than_damping = change.active || change.normal || change.friction;
+  if (!pairing::is<pairing::ByPenalty>(pair.enforcement) ||
+      (other_than_damping && pairing::by_mortar(pair)))
     throw core::InputError(change.mark,
                            fmt::format("'{}' cannot change: that goes with enforcement: penalty, "
                                        "and with any sampling but mortar",
@@ -80,6 +101,7 @@ void check_changed(const ContactChange& change, pairing::PairDefinition<Dim> pai
   pair.normal = to.normal;
   pair.friction = to.friction;
   pair.separation = to.separation;
+  pair.damping = to.damping;
   if (pairing::is_tied(pair) && pair.friction)
     throw core::InputError(change.mark, "tied points do not slide: they have no friction");
   if (const pairing::Refusal* const refused = pairing::refusal(pairing::traits_of(pair)))
@@ -112,7 +134,7 @@ void build_pair_changes(BuildContext<Dim>& c) {
         const pairing::PairDefinition<Dim>& pair = c.model().pairs[p].definition;
         const auto [at, fresh] = running.try_emplace(p);
         model::BasicPairChange<Dim>& now = at->second;
-        if (fresh) now = {s, p, true, pair.normal, pair.friction, pair.separation};
+        if (fresh) now = {s, p, true, pair.normal, pair.friction, pair.separation, pair.damping};
         if (!fresh && now.step == s)
           throw core::InputError(change.mark,
                                  fmt::format("'{}' changes twice in this step", change.pair.value));

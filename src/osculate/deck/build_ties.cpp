@@ -189,6 +189,13 @@ void add_ties(BuildContext<Dim>& c, const TiesBeside& beside, std::set<model::Do
   }
 }
 
+template <int Dim>
+std::vector<Index> nodes_of_tie(const BuildContext<Dim>& c, const Tie& tie) {
+  return tied_nodes(c, tie).nodes;
+}
+
+template std::vector<Index> nodes_of_tie(const BuildContext<2>&, const Tie&);
+template std::vector<Index> nodes_of_tie(const BuildContext<3>&, const Tie&);
 template void adjust_ties(BuildContext<2>&);
 template void adjust_ties(BuildContext<3>&);
 template void add_ties(BuildContext<2>&, const TiesBeside&, std::set<model::Dof>,

@@ -32,4 +32,8 @@ template <int Dim>
 void add_ties(BuildContext<Dim>& context, const TiesBeside& beside, std::set<model::Dof> given,
               std::vector<MarkedEquation>& all);
 
+/// The nodes of the slave that a tie ties, in reference coordinates.
+template <int Dim>
+[[nodiscard]] std::vector<Index> nodes_of_tie(const BuildContext<Dim>& context, const Tie& tie);
+
 }  // namespace osculate::deck

@@ -267,6 +267,7 @@ struct Contact {
   /// are made of the mesh, named NAME.A-B. Master and slave are empty then.
   bool all = false;
   std::vector<std::array<Name, 2>> exclude;  ///< of `all`: bodies by number, section or rigid name
+  std::vector<std::array<Name, 2>> exclude_surfaces{};  ///< of `all`: sets
 };
 
 /// What changes of a pair at the beginning of a step, and stays so.
@@ -277,6 +278,8 @@ struct ContactChange {
   std::optional<NormalDescription> normal;
   /// Empty: stays; with an empty law: no friction.
   std::optional<std::optional<GivenLaw<contact::FrictionLaw>>> friction;
+  /// Likewise.
+  std::optional<std::optional<GivenLaw<contact::DampingLaw>>> damping{};
 };
 
 /// Stresses of a set of cells before the first step, or strains without stress.

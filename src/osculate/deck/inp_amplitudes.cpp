@@ -1,6 +1,8 @@
 // Amplitudes of a deck: tables over the time of a step or of all, and what they are within one.
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "osculate/core/text.hpp"
 #include "osculate/deck/inp_steps.hpp"
 
@@ -25,10 +27,36 @@ void check_amplitude(const InpModel& m, const Card& card) {
   const std::string time = option_of(card, "TIME");
   if (!time.empty() && time != "STEPTIME" && time != "TOTALTIME")
     io::inp::fail(m.deck, card, fmt::format("expected TIME=TOTAL TIME, found {}", time));
-  for (const char* const other : {"DEFINITION", "VALUE", "USER"})
-    if (io::inp::find_parameter(card, other) && option_of(card, other) != "TABULAR" &&
-        option_of(card, other) != "RELATIVE")
-      io::inp::fail(m.deck, card, fmt::format("{} is not supported", other));
+  const std::string definition = option_of(card, "DEFINITION"), value = option_of(card, "VALUE");
+  if (!definition.empty() && definition != "TABULAR" && definition != "SMOOTHSTEP" &&
+      definition != "EQUALLYSPACED")
+    io::inp::fail(m.deck, card,
+                  fmt::format("DEFINITION={} is not supported: TABULAR, EQUALLY SPACED or SMOOTH "
+                              "STEP",
+                              printable(definition)));
+  if (!value.empty() && value != "RELATIVE")
+    io::inp::fail(m.deck, card, fmt::format("VALUE={} is not supported", printable(value)));
+  if (io::inp::find_parameter(card, "USER")) io::inp::fail(m.deck, card, "USER is not supported");
+}
+
+/// Between two points of a smooth step lie so many straight parts.
+///
+/// Formula    A(x) = A_0 + (A_1 - A_0) x^3 (10 - 15 x + 6 x^2) ; straight parts differ from it by
+///            10 / sqrt(3) / 8 / n^2 of A_1 - A_0 at most, 1.8e-5 with 200
+/// Source     Abaqus, *AMPLITUDE, DEFINITION=SMOOTH STEP
+std::vector<std::array<double, 2>> smooth_step(const std::vector<std::array<double, 2>>& points) {
+  constexpr int parts = 200;
+  std::vector<std::array<double, 2>> out;
+  for (std::size_t k = 0; k + 1 < points.size(); ++k)
+    for (int i = 0; i < parts; ++i) {
+      const double x = static_cast<double>(i) / parts;
+      const double share = x * x * x * (10 - 15 * x + 6 * x * x);
+      out.push_back({std::lerp(points[k][0], points[k + 1][0], x),
+                     std::lerp(points[k][1], points[k + 1][1], share)});
+      if (points[k][1] == points[k + 1][1]) break;
+    }
+  out.push_back(points.back());
+  return out;
 }
 
 void add_point(SourceNode& points, double fraction, double factor) {
@@ -49,10 +77,15 @@ void read_amplitude(const InpModel& m, const Card& card, InpTables& tables) {
     return given ? Fields(m.deck, {given->value, card.at}).real(key) : 0.0;
   };
   const double later = shift("SHIFTX"), more = shift("SHIFTY");
+  const bool spaced = option_of(card, "DEFINITION") == "EQUALLYSPACED";
+  const double interval = spaced ? shift("FIXEDINTERVAL") : 0;
+  if (spaced && !(interval > 0)) io::inp::fail(m.deck, card, "expected FIXED INTERVAL above 0");
+  const double begin = spaced ? shift("BEGIN") : 0;
   for (const Line& line : io::inp::lines_of(m.deck, card)) {
     Fields fields(m.deck, line);
     while (!fields.done()) {
-      const double t = fields.real("a time") + later;
+      const double t = later + (spaced ? begin + static_cast<double>(table.points.size()) * interval
+                                       : fields.real("a time"));
       const double factor = fields.real("a factor") + more;
       if (!table.points.empty() && !(t > table.points.back()[0]))
         fields.fail("expected a later time than the one before");
@@ -60,6 +93,7 @@ void read_amplitude(const InpModel& m, const Card& card, InpTables& tables) {
     }
   }
   if (table.points.empty()) io::inp::fail(m.deck, card, "expected pairs of time and factor");
+  if (option_of(card, "DEFINITION") == "SMOOTHSTEP") table.points = smooth_step(table.points);
   tables[io::inp::capitals(table.name)] = std::move(table);
 }
 

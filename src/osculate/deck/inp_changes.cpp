@@ -69,6 +69,49 @@ void change_activity(const InpModel& m, const Card& card, SourceNode& list) {
   }
 }
 
+/// The cards of a deck up to the end of a step.
+std::span<const Card> up_to_end(const InpModel& m, std::span<const Card> step) {
+  return {m.deck.cards.data(), step.data() + step.size()};
+}
+
+/// The last `*FRICTION` of an interaction.
+const Card* friction_by_now(const InpInteraction& of, std::span<const Card> cards) {
+  const Card* last = of.friction;
+  bool follows = false;
+  for (const Card& card : cards) {
+    if (card.keyword == "FRICTION" && follows) last = &card;
+    if (card.keyword == "CHANGEFRICTION")
+      follows = option_of(card, "INTERACTION") == io::inp::capitals(of.name);
+  }
+  return last;
+}
+
+/// Damping that acts in this step and did not before, or the other way round, with the film that is
+/// a share of it.
+void change_damping(const InpModel& m, std::span<const Card> step, SourceNode& list) {
+  const std::span<const Card> all = up_to_end(m, step);
+  const bool acts = contact_is_damped(m, all);
+  if (acts == contact_is_damped(m, all.first(all.size() - step.size()))) return;
+  const std::vector<InpInteraction> interactions = inp_interactions(m);
+  for (const InpPair& pair : m.pairs) {
+    if (pair.interaction.empty()) continue;
+    const InpInteraction& law =
+        interaction_named(m, interactions, step.front().at, pair.interaction);
+    if (!law.damping) continue;
+    const int line = line_of(step.front().at);
+    SourceNode& entry = entry_of(list, pair.name, line);
+    SourceNode of_law = inp_map(line);
+    if (acts) put_damping(m, *law.damping, of_law);
+    put(entry, "damping", acts ? std::move(of_law.entries[0].value) : inp_text("none", line));
+    if (inp_is_tied(law.behavior) || find(entry, "friction") ||
+        !io::inp::find_parameter(*law.damping, "TANGENTFRACTION"))
+      continue;
+    SourceNode shear = inp_shear(m, friction_by_now(law, all), acts ? law.damping : nullptr);
+    const bool none = shear.entries.empty() && shear.text.empty();
+    put(entry, "friction", none ? inp_text("none", line) : std::move(shear));
+  }
+}
+
 }  // namespace
 
 SourceNode inp_changes(const InpModel& m, std::span<const Card> step) {
@@ -88,8 +131,9 @@ SourceNode inp_changes(const InpModel& m, std::span<const Card> step) {
           m, *change, "friction",
           [&](const InpPair& pair) {
             const auto all = inp_interactions(m);
+            const InpInteraction& law = interaction_named(m, all, card.at, pair.interaction);
             return inp_shear(m, &card,
-                             damping_of(m, interaction_named(m, all, card.at, pair.interaction)));
+                             contact_is_damped(m, up_to_end(m, step)) ? law.damping : nullptr);
           },
           list);
     else
@@ -101,6 +145,7 @@ SourceNode inp_changes(const InpModel& m, std::span<const Card> step) {
           list);
     change = nullptr;
   }
+  if (!step.empty()) change_damping(m, step, list);
   return list;
 }
 

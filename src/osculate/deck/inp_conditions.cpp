@@ -35,7 +35,9 @@ std::vector<int> held_here(const InpModel& m, Fields& fields, const Line& line,
   const std::string_view word = fields.next().value_or("");
   std::vector<int> directions = io::inp::held_directions(word);
   const int highest = highest_direction(m, set_name);
-  const bool of_body = m.body_nodes.contains(only_node(m, set_name));
+  const auto body = m.body_nodes.find(only_node(m, set_name));
+  // the node of a section under pretension has one direction, and others hold nothing there
+  const bool of_body = body != m.body_nodes.end() && body->second.rigid;
   if (directions.empty()) {
     const std::int32_t first = io::inp::number_of(m.deck, line.at, word, "the first direction");
     std::int32_t last = first;

@@ -156,6 +156,11 @@ void add_contact_pair(InpModel& m, const Card& card, const InpInteraction& law, 
   const auto lines = io::inp::lines_of(m.deck, card);
   if (lines.empty()) io::inp::fail(m.deck, card, "expected a line with two surfaces");
   const bool is_of_nodes = option_of(card, "TYPE") == "NODETOSURFACE";
+  const bool has_shells = std::ranges::any_of(
+      m.deck.cards, [](const Card& one) { return one.keyword == "SHELLSECTION"; });
+  if (has_shells && io::inp::find_parameter(card, "NOTHICKNESS"))
+    io::inp::fail(m.deck, card,
+                  "NO THICKNESS is not supported with shells, whose surfaces are those of solids");
   for (const Line& line : lines) {
     SourceNode& pair = pair_of_line(m, card, line, pairs);
     const std::string slave = find(pair, "slave")->text;  // the pair's keys move when one is added
@@ -242,24 +247,21 @@ const InpInteraction& interaction_named(const InpModel& m, const std::vector<Inp
                 core::unknown_name_message("surface interaction", printable(name), names));
 }
 
-const Card* damping_of(const InpModel& m, const InpInteraction& law) {
-  if (!law.damping) return nullptr;
-  bool in_time = false, at_rest = false;
-  for (const Card& card : m.deck.cards) {
-    in_time = in_time || card.keyword == "DYNAMIC";
-    at_rest = at_rest || card.keyword == "STATIC" || card.keyword == "VISCO";
-  }
-  if (in_time && at_rest)
-    io::inp::fail(m.deck, *law.damping,
-                  "acts in steps with *DYNAMIC alone, and the deck has others: damping that comes "
-                  "and goes is not supported");
-  return in_time ? law.damping : nullptr;
+bool contact_is_damped(const InpModel& m, std::span<const Card> cards) {
+  std::optional<bool> acts;
+  const auto look = [&](const Card& card) {
+    if (card.keyword == "DYNAMIC") acts = true;
+    if (card.keyword == "STATIC" || card.keyword == "VISCO") acts = false;
+  };
+  std::ranges::for_each(cards, look);
+  for (std::size_t k = 0; !acts && k < m.deck.cards.size(); ++k) look(m.deck.cards[k]);
+  return acts.value_or(false);
 }
 
 void put_laws(const InpModel& m, const InpInteraction& law, SourceNode& pair, double clearance) {
   SourceNode& normal =
       put(pair, "normal", inp_normal(m, law.behavior, line_of(law.card->at), clearance));
-  const Card* const damping = damping_of(m, law);
+  const Card* const damping = contact_is_damped(m, {}) ? law.damping : nullptr;
   if (damping) put_damping(m, *damping, normal);
   if (inp_is_tied(law.behavior)) return;
   SourceNode friction = inp_shear(m, law.friction, damping);

@@ -16,6 +16,8 @@ using io::inp::Fields;
 using io::inp::Line;
 using io::inp::SetKind;
 
+constexpr std::initializer_list<SetKind> both_kinds{SetKind::surface, SetKind::node_surface};
+
 /// A line `surface, surface, interaction`, in capitals. An empty first surface is everything, an
 /// empty second one the first again.
 struct ContactLine {
@@ -137,8 +139,8 @@ Behind behind(const mesh::Mesh& mesh, const Parts& parts, const mesh::Set& surfa
   return out;
 }
 
-/// The sets of sections whose bodies a surface covers, all of them and whole; fails where it does
-/// not. Without a name: of all sections.
+/// The sets of sections whose bodies a surface covers, all of them and whole; without a name: of
+/// all sections. Empty: it covers a part of some.
 std::vector<std::string> sections_under(InpModel& m, const Parts& parts, const std::string& name,
                                         io::inp::Place at) {
   std::vector<std::string> names;
@@ -147,8 +149,9 @@ std::vector<std::string> sections_under(InpModel& m, const Parts& parts, const s
     return names;
   }
   const mesh::Mesh& mesh = m.mesh.mesh;
-  const std::string& set = set_of(m, at, name, {SetKind::surface});
-  const Behind under = behind(mesh, parts, *mesh.find_set(set), inp_dimension(m));
+  const mesh::Set& set = *mesh.find_set(set_of(m, at, name, both_kinds));
+  if (set.cells.empty()) return {};
+  const Behind under = behind(mesh, parts, set, inp_dimension(m));
   std::set<int> covered;
   for (SourceNode& section : m.sections.items) {
     // null: a set that the translation makes
@@ -160,44 +163,37 @@ std::vector<std::string> sections_under(InpModel& m, const Parts& parts, const s
     covered.insert(own.begin(), own.end());
     names.push_back(cells->name);
   }
-  if (under.parts.empty() || under.facets != under.free || covered != under.parts)
-    io::inp::fail(m.deck, at,
-                  fmt::format("*CONTACT EXCLUSIONS: '{}' is not the whole surface of the bodies of "
-                              "some sections, which are what `contact: {{all: {{exclude: ...}}}}` "
-                              "can name",
-                              printable(name)));
+  if (under.parts.empty() || under.facets != under.free || covered != under.parts) return {};
   return names;
 }
 
+/// Whole bodies by their sections, else the surfaces themselves.
 void put_exclusions(InpModel& m, const General& general, SourceNode& all) {
   if (general.excluded.empty()) return;
-  SourceNode& exclude = put(all, "exclude", inp_list(line_of(general.excluded[0].at)));
+  const int first = line_of(general.excluded[0].at);
+  SourceNode bodies = inp_list(first), surfaces = inp_list(first);
   const Parts parts = parts_of(m.mesh.mesh, inp_dimension(m));
   for (const ContactLine& one : general.excluded) {
     if (one.everything()) io::inp::fail(m.deck, one.at, "*CONTACT EXCLUSIONS: nothing is left");
     const int line = line_of(one.at);
-    for (const std::string& a : sections_under(m, parts, one.first, one.at))
-      for (const std::string& b : sections_under(m, parts, one.second, one.at))
-        exclude.items.emplace_back(inp_list(line)).items = {inp_text(a, line), inp_text(b, line)};
+    const auto under_first = sections_under(m, parts, one.first, one.at),
+               under_second = sections_under(m, parts, one.second, one.at);
+    if (!under_first.empty() && !under_second.empty()) {
+      for (const std::string& a : under_first)
+        for (const std::string& b : under_second)
+          bodies.items.emplace_back(inp_list(line)).items = {inp_text(a, line), inp_text(b, line)};
+      continue;
+    }
+    if (one.first.empty() || one.second.empty())
+      io::inp::fail(m.deck, one.at,
+                    "*CONTACT EXCLUSIONS: with a surface that is not the whole one of a body the "
+                    "other one needs a name");
+    surfaces.items.emplace_back(inp_list(line)).items = {
+        inp_text(set_of(m, one.at, one.first, both_kinds), line),
+        inp_text(set_of(m, one.at, one.second, both_kinds), line)};
   }
-}
-
-SourceNode contact_of_all(InpModel& m, const General& general,
-                          const std::vector<InpInteraction>& interactions) {
-  const int line = line_of(general.card->at);
-  SourceNode root = inp_map(line);
-  SourceNode& all = put(root, "all", inp_map(line));
-  for (const ContactLine& law : general.laws)
-    if (!law.everything())
-      io::inp::fail(m.deck, law.at,
-                    "*CONTACT PROPERTY ASSIGNMENT: with ALL EXTERIOR there is one interaction, of "
-                    "all surfaces: `, , NAME`");
-  if (!general.laws.empty()) {
-    const ContactLine& law = general.laws.back();
-    put_laws(m, interaction_named(m, interactions, law.at, law.interaction), all);
-  }
-  put_exclusions(m, general, all);
-  return root;
+  if (!bodies.items.empty()) put(all, "exclude", std::move(bodies));
+  if (!surfaces.items.empty()) put(all, "exclude_surfaces", std::move(surfaces));
 }
 
 /// The law that was assigned last: to these surfaces, else to all.
@@ -213,6 +209,46 @@ bool has_pair(const std::vector<ContactLine>& list, const ContactLine& pair) {
 }
 
 /// Both sides are slaves in turn, as with `all`.
+void add_both_ways(InpModel& m, const ContactLine& one, const ContactLine* law,
+                   const std::vector<InpInteraction>& interactions, SourceNode& pairs) {
+  SourceNode& pair = add_pair(m, one.at, one.first, one.second, pairs);
+  m.pairs.push_back({find(pair, "name")->text, law ? law->interaction : std::string(),
+                     find(pair, "slave")->text, find(pair, "master")->text});
+  if (law) put_laws(m, interaction_named(m, interactions, law->at, law->interaction), pair);
+  if (one.first == one.second) return;
+  SourceNode both = inp_text("true", line_of(one.at));
+  both.quoted = false;
+  put(pair, "two_pass", std::move(both));
+}
+
+/// Surfaces with an interaction of their own are pairs, which come before `all`.
+SourceNode contact_of_all(InpModel& m, const General& general,
+                          const std::vector<InpInteraction>& interactions, SourceNode pairs) {
+  const int line = line_of(general.card->at);
+  SourceNode root = inp_map(line), all = inp_map(line);
+  const ContactLine* of_all = nullptr;
+  for (const ContactLine& law : general.laws) {
+    if (law.everything()) {
+      of_all = &law;
+      continue;
+    }
+    if (law.first.empty() || law.second.empty())
+      io::inp::fail(m.deck, law.at,
+                    "*CONTACT PROPERTY ASSIGNMENT: beside ALL EXTERIOR expected two surfaces and "
+                    "their interaction, or `, , NAME` for all");
+    if (!has_pair(general.excluded, law) && law_of(general, law) == &law)
+      add_both_ways(m, law, &law, interactions, pairs);
+  }
+  if (of_all) {
+    put_laws(m, interaction_named(m, interactions, of_all->at, of_all->interaction), all);
+    m.pairs.push_back({"all", of_all->interaction, {}, {}});
+  }
+  put_exclusions(m, general, all);
+  put(root, "all", std::move(all));
+  if (!pairs.items.empty()) put(root, "pairs", std::move(pairs));
+  return root;
+}
+
 void add_included(InpModel& m, const General& general,
                   const std::vector<InpInteraction>& interactions, SourceNode& pairs) {
   for (const ContactLine& law : general.laws)
@@ -227,15 +263,7 @@ void add_included(InpModel& m, const General& general,
     if (one.first.empty())
       io::inp::fail(m.deck, one.at,
                     "*CONTACT INCLUSIONS: expected two surfaces, or ALL EXTERIOR alone");
-    SourceNode& pair = add_pair(m, one.at, one.first, one.second, pairs);
-    const ContactLine* const law = law_of(general, one);
-    m.pairs.push_back({find(pair, "name")->text, law ? law->interaction : std::string(),
-                       find(pair, "slave")->text, find(pair, "master")->text});
-    if (law) put_laws(m, interaction_named(m, interactions, law->at, law->interaction), pair);
-    if (one.first == one.second) continue;
-    SourceNode both = inp_text("true", line_of(one.at));
-    both.quoted = false;
-    put(pair, "two_pass", std::move(both));
+    add_both_ways(m, one, law_of(general, one), interactions, pairs);
   }
 }
 
@@ -258,13 +286,7 @@ SourceNode inp_general_contact(InpModel& m, const std::vector<InpInteraction>& i
   if (!general.included.empty())
     io::inp::fail(m.deck, general.included[0].at,
                   "*CONTACT INCLUSIONS: ALL EXTERIOR has all pairs of surfaces already");
-  const bool tied = std::ranges::any_of(
-      m.deck.cards, [](const Card& card) { return card.keyword == "TIE" && !is_cyclic_tie(card); });
-  if (tied || !pairs.items.empty())
-    io::inp::fail(m.deck, *general.card,
-                  "ALL EXTERIOR is not supported beside *CONTACT PAIR and *TIE: a model file has "
-                  "contact of everything, or a list of pairs");
-  return contact_of_all(m, general, interactions);
+  return contact_of_all(m, general, interactions, std::move(pairs));
 }
 
 }  // namespace osculate::deck

@@ -54,12 +54,31 @@ SourceNode film_alone(double film, int at) {
   return friction;
 }
 
+/// Abaqus: mu = mu_k + (mu_s - mu_k) exp(-d V), V the sliding speed.
+SourceNode decaying_friction(const InpModel& m, const Card& card, double film) {
+  const Line& line = only_line(m, card, "both coefficients and the decay");
+  Fields fields(m.deck, line);
+  const int at = line_of(line.at);
+  SourceNode friction = inp_map(line_of(card.at));
+  SourceNode& coulomb = put(friction, "coulomb", inp_map(at));
+  put(coulomb, "mu", inp_number(fields.real("the static coefficient"), at));
+  const double kinetic = fields.real("the kinetic coefficient");
+  const double decay = fields.real_or_zero("the decay");
+  if (decay > 0) {
+    put(coulomb, "kinetic", inp_number(kinetic, at));
+    put(put(coulomb, "decay", inp_map(at)), "speed", inp_number(1 / decay, at));
+  }
+  if (film > 0) put(coulomb, "viscous", inp_number(film, at));
+  return friction;
+}
+
 SourceNode friction_of(const InpModel& m, const Card& card, double film) {
   if (io::inp::find_parameter(card, "ROUGH")) {
     SourceNode friction = inp_map(line_of(card.at));
     put(friction, "rough", inp_map(line_of(card.at)));
     return friction;
   }
+  if (io::inp::find_parameter(card, "EXPONENTIALDECAY")) return decaying_friction(m, card, film);
   const Line& line = only_line(m, card, "the coefficient and the stick slope");
   Fields fields(m.deck, line);
   const int at = line_of(line.at);
@@ -84,6 +103,10 @@ SourceNode inp_normal(const InpModel& m, const Card* behavior, int line, double 
   SourceNode normal = inp_map(line);
   if (!behavior) return normal;  // hard
   const std::string kind = option_of(*behavior, "PRESSURE-OVERCLOSURE");
+  if (io::inp::find_parameter(*behavior, "NOSEPARATION")) {
+    put(normal, "separation", inp_text("no_separation", line_of(behavior->at)));
+    clearance = 0;  // what holds needs no tension
+  }
   if (kind.empty() || kind == "HARD") return normal;
   if (kind == "TABULAR") {
     put_table(m, *behavior, normal);
@@ -110,7 +133,11 @@ SourceNode inp_normal(const InpModel& m, const Card* behavior, int line, double 
     return normal;
   }
   put(normal, "penalty", inp_number(stiffness, line_of(lines[0].at)));
-  if (kind == "TIED") put(normal, "separation", inp_text("tied", line_of(behavior->at)));
+  if (kind == "TIED") {
+    if (find(normal, "separation"))
+      io::inp::fail(m.deck, *behavior, "NO SEPARATION does not go with TIED, which holds already");
+    put(normal, "separation", inp_text("tied", line_of(behavior->at)));
+  }
   return normal;
 }
 

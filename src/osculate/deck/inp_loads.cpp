@@ -17,7 +17,8 @@ using io::inp::SetKind;
 
 /// Pressures follow the surface, with NLGEOM.
 void check_follower(const InpModel& m, const Card& card) {
-  if (m.finite && option_of(card, "FOLLOWER") == "NO")
+  if (m.finite && option_of(card, "FOLLOWER") == "NO" &&
+      option_of(card, "CONSTANTRESULTANT") != "YES")
     io::inp::fail(m.deck, card,
                   "FOLLOWER=NO is not supported with NLGEOM: pressures turn with their surface");
 }
@@ -108,19 +109,19 @@ std::set<std::pair<Index, Index>> cells_of_set(const InpModel& m, const std::str
   return cells;
 }
 
-/// Of CENTRIF of several sets or axes on an element CalculiX takes one, which the order of the sets
-/// decides, and Abaqus all.
-void require_one_rotation(const InpReading& r, const LoadLine& load, const std::string& on,
-                          int axis) {
+/// Of CENTRIF of several sets or axes on an element Abaqus takes the sum, CalculiX one.
+void tell_of_several(const InpReading& r, const LoadLine& load, const std::string& on, int axis) {
   const auto cells = cells_of_set(r.m, on);
   for (const auto& [key, value] : r.acting.parts[0].centrifugal) {
     if (value.size == 0 || key == std::pair{on, axis}) continue;
     const auto others = cells_of_set(r.m, key.first);
-    if (std::ranges::any_of(others, [&](const auto& cell) { return cells.contains(cell); }))
-      load.fields.fail(
-          fmt::format("elements of '{}' have a CENTRIF of another set or axis (line {}), of which "
-                      "CalculiX takes one and Abaqus the sum: not supported",
-                      on, value.line));
+    if (std::ranges::none_of(others, [&](const auto& cell) { return cells.contains(cell); }))
+      continue;
+    r.m.notes.push_back(
+        fmt::format("line {}: elements of '{}' have the CENTRIF of line {}, too: both act, as in "
+                    "Abaqus; CalculiX takes one of them",
+                    load.line.at.line, on, value.line));
+    return;
   }
 }
 
@@ -135,7 +136,7 @@ void read_centrifugal(const InpReading& r, const LoadLine& load) {
   const std::string& on =
       set_of(r.m, load.line.at, io::inp::element_set_name(load.elements), {SetKind::elements});
   const int axis_number = static_cast<int>(known - axes.begin());
-  require_one_rotation(r, load, on, axis_number);
+  tell_of_several(r, load, on, axis_number);
   set_condition(r.m, r.acting.parts[0].centrifugal, {on, axis_number}, speed, load.said, load.line,
                 true);
 }
@@ -190,24 +191,61 @@ void read_distributed(const InpReading& r, const Card& card) {
       if (option_of(card, "LOADCASE") == "2")
         fields.fail("CENTRIF with LOAD CASE=2 is not supported");
       read_centrifugal(r, one);
+    } else if (load == "BX" || load == "BY" || load == "BZ") {
+      const int direction = load[1] - 'X' + 1;
+      if (direction > inp_dimension(r.m)) fields.fail("the force points out of the plane");
+      const std::string& on =
+          set_of(r.m, line.at, io::inp::element_set_name(one.elements), {SetKind::elements});
+      set_condition(r.m, part.body_forces, {on, direction}, fields.real("the force per volume"),
+                    said, line, true);
     } else {
-      fields.fail(
-          fmt::format("load {} is not supported: P1 to P6, EDNOR1 to EDNOR4, GRAV or CENTRIF",
-                      io::inp::shown(load)));
+      fields.fail(fmt::format(
+          "load {} is not supported: P1 to P6, EDNOR1 to EDNOR4, GRAV, CENTRIF, BX, BY or "
+          "BZ",
+          io::inp::shown(load)));
     }
   }
 }
 
+/// A traction of constant direction: its size, and a vector along it. With NLGEOM that of a model
+/// file neither turns with the surface nor grows with it.
+void read_traction(const InpReading& r, const Card& card, const LoadLine& load,
+                   const std::string& on, Conditions& tractions) {
+  if (r.m.finite &&
+      !(option_of(card, "FOLLOWER") == "NO" && option_of(card, "CONSTANTRESULTANT") == "YES"))
+    io::inp::fail(r.m.deck, card,
+                  "TRVEC with NLGEOM needs FOLLOWER=NO and CONSTANT RESULTANT=YES: tractions act "
+                  "per undeformed area, in constant directions");
+  const double size = load.fields.real("the traction");
+  Vec3 direction = Vec3::Zero();
+  for (Eigen::Index k = 0; k < 3; ++k) direction[k] = load.fields.real_or_zero("a direction");
+  if (!(direction.norm() > 0)) load.fields.fail("expected the direction of the traction");
+  direction.normalize();
+  for (int k = 0; k < 3; ++k) {
+    if (direction[k] == 0) continue;
+    if (k >= inp_dimension(r.m)) load.fields.fail("the traction points out of the plane");
+    add_load(r, tractions, {on, k + 1}, size * direction[k], load.said, load.line);
+  }
+}
+
 void read_on_surfaces(const InpReading& r, const Card& card) {
-  Conditions& pressures = part_of(r, card).pressures;
-  const InpSaid said = begin_card(r, card, pressures);
+  InpConditions& part = part_of(r, card);
+  const InpSaid said = begin_card(r, card, part.pressures);
+  (void)begin_card(r, card, part.tractions);
   for (const Line& line : io::inp::lines_of(r.m.deck, card)) {
     Fields fields(r.m.deck, line);
     const std::string surface = io::inp::name_of(fields.next().value_or(""));
     const std::string& on = set_of(r.m, line.at, surface, {SetKind::surface});
     const std::string load = io::inp::capitals(io::inp::name_of(fields.next().value_or("")));
-    if (load != "P") fields.fail(fmt::format("load {} is not supported: P", io::inp::shown(load)));
-    add_load(r, pressures, {on, 1}, fields.real("the pressure"), said, line);
+    if (load == "TRVEC") {
+      read_traction(r, card, {line, fields, said, surface}, on, part.tractions);
+      continue;
+    }
+    if (load != "P")
+      fields.fail(fmt::format("load {} is not supported: P or TRVEC", io::inp::shown(load)));
+    if (option_of(card, "CONSTANTRESULTANT") == "YES")
+      io::inp::fail(r.m.deck, card, "CONSTANT RESULTANT=YES goes with TRVEC");
+    add_load(r, part.pressures, {on, 1}, fields.real("the pressure"), said, line);
   }
 }
 

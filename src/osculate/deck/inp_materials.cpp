@@ -68,9 +68,11 @@ core::Curves that_differ(core::Curves curves) {
 /// Stress over plastic strain, one curve a temperature.
 core::Curves hardening_of(const InpModel& m, const Card& card) {
   core::Curves curves;
+  const io::inp::Parameter* const given = io::inp::find_parameter(card, "SCALE");
+  const double scale = given ? Fields(m.deck, {given->value, card.at}).real("SCALE") : 1;
   for (const Line& line : io::inp::lines_of(m.deck, card)) {
     Fields fields(m.deck, line);
-    const double stress = fields.real("the yield stress");
+    const double stress = scale * fields.real("the yield stress");
     const double strain = fields.real_or_zero("the plastic strain");
     const double temperature = fields.real_or_zero("a temperature");
     fields.expect_end();
@@ -122,10 +124,27 @@ void put_kinematic(const InpModel& m, const Card& card, const Card* cyclic, Sour
   else
     put_yield_table(that_differ(std::move(size)), line, law);
   const core::Table& only = moves[0].points;
-  if (moves.size() > 1 || only.size() > 2)
-    put(law, "kinematic", curves_node(moves, line));
-  else if (only.size() == 2)
+  // farther than any strain: a modulus
+  const bool far = only.size() == 2 && only[1][1] - only[0][1] >= inp_far_strain;
+  if (moves.size() == 1 && far)
     put(law, "kinematic", inp_number(only[1][0] / (only[1][1] - only[0][1]), line));
+  else if (moves.size() > 1 || only.size() > 1)
+    put(law, "kinematic", curves_node(moves, line));
+}
+
+/// What Abaqus does otherwise with two points: the slope goes on.
+void tell_of_two_points(InpModel& m, const Card& plastic) {
+  const std::string kind = option_of(plastic, "HARDENING");
+  if (kind != "KINEMATIC" && kind != "COMBINED") return;
+  for (const core::Curve& curve : hardening_of(m, plastic))
+    if (curve.points.size() == 2 && curve.points[1][1] < inp_far_strain) {
+      m.notes.push_back(fmt::format(
+          "line {}: kinematic hardening ends at its second point, as in CalculiX; in Abaqus two "
+          "points are a slope that goes on: a second point at a plastic strain of {:g} says so in "
+          "both",
+          plastic.at.line, inp_far_strain));
+      return;
+    }
 }
 
 void put_plastic(const InpModel& m, const Card& card, const Card* cyclic, SourceNode& law) {
@@ -288,7 +307,10 @@ SourceNode inp_materials(InpModel& m) {
       put_elastic(m, *c.elastic, law);
     if (const double density = density_of(m, c); density > 0)
       put(law, "density", inp_number(density, line_of(c.density->at)));
-    if (c.plastic && !c.creep) put_plastic(m, *c.plastic, c.cyclic, law);
+    if (c.plastic && !c.creep) {
+      put_plastic(m, *c.plastic, c.cyclic, law);
+      tell_of_two_points(m, *c.plastic);
+    }
     if (c.creep) put_creep(m, *c.creep, law);
     if (c.expansion && has_temperatures(m))
       put(material, "expansion", inp_expansion(m, *c.expansion));

@@ -89,6 +89,9 @@ void check_parameters(InpModel& m);
 
 // ---- the keys of a model file -----------------------------------------------------------------
 
+/// A plastic strain that nothing reaches: a curve of kinematic hardening of two points that ends
+/// there is a modulus.
+inline constexpr double inp_far_strain = 100;
 [[nodiscard]] SourceNode inp_materials(InpModel& m);
 /// A material as the model file calls it: by its name in capital and small letters.
 [[nodiscard]] std::string material_named(const InpModel& m, std::string_view name);
@@ -198,9 +201,9 @@ struct InpInteraction {
 [[nodiscard]] const InpInteraction& interaction_named(const InpModel& m,
                                                       const std::vector<InpInteraction>& all,
                                                       io::inp::Place at, std::string_view name);
-/// Its damping, which acts in steps in time alone, as in CalculiX: null where there are none. Fails
-/// where there are both kinds of steps: damping does not change from step to step.
-[[nodiscard]] const io::inp::Card* damping_of(const InpModel& m, const InpInteraction& law);
+/// Whether damping of contact acts after some cards: in `*DYNAMIC`, not in `*STATIC` and `*VISCO`,
+/// as in CalculiX; other steps leave it as it is, and before the first one it is as there.
+[[nodiscard]] bool contact_is_damped(const InpModel& m, std::span<const io::inp::Card> cards);
 /// Its laws as keys of a contact pair; clearance: as of inp_normal.
 void put_laws(const InpModel& m, const InpInteraction& law, SourceNode& pair, double clearance = 0);
 /// A new pair of two surfaces of the deck, with a name of its own. `nodes`: of slaves that share

@@ -167,6 +167,12 @@ double duration_of(InpModel& m, const InpProcedure& procedure) {
 
 void put_time(InpModel& m, const InpProcedure& procedure, SourceNode& step) {
   const int line = line_of(procedure.card->at);
+  if (io::inp::find_parameter(*procedure.card, "STABILIZE"))
+    m.notes.push_back(fmt::format(
+        "line {}: without the viscous forces of STABILIZE: what converges is the answer that they "
+        "leave where they do little work; what snaps through needs *DYNAMIC, or `solver: "
+        "arc_length` of a model file",
+        procedure.card->at.line));
   put(step, "increments", inp_number(procedure.increments, line));
   put(step, "duration", inp_number(duration_of(m, procedure), line));
   if (procedure.is("DYNAMIC")) put(step, "dynamics", inp_dynamics(m, *procedure.card));

@@ -133,6 +133,9 @@ void put_loads(const InpWriting& w, InpActing& acting, bool imaginary) {
   put_all("pressure", part.pressures, [](SourceNode& entry, int, const Condition& value) {
     put(entry, "value", inp_number(value.size, value.line));
   });
+  put_all("traction", part.tractions, [](SourceNode& entry, int direction, const Condition& value) {
+    put(entry, inp_component('t', direction), inp_number(value.size, value.line));
+  });
   put_all("body_force", part.body_forces, force);
   put_all("centrifugal", part.centrifugal,
           [&](SourceNode& entry, int axis, const Condition& value) {

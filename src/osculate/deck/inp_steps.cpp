@@ -129,6 +129,7 @@ void end_buckling(History& h, const Card& card, const InpWriting& w) {
 void note_loads(History& h, const InpConditions& part) {
   note_overlaps(h.m, part.forces, h.overlaps);
   note_overlaps(h.m, part.pressures, h.overlaps);
+  note_overlaps(h.m, part.tractions, h.overlaps);
 }
 
 /// Loads and supports of this step and of those like it before.

@@ -90,11 +90,12 @@ struct Condition {
 using Conditions = std::map<std::pair<std::string, int>, Condition>;
 
 struct InpConditions {
-  Conditions prescribed, forces, pressures, body_forces, centrifugal;
+  Conditions prescribed, forces, pressures, tractions, body_forces, centrifugal;
   Conditions weights;  ///< of point masses, which act with body forces
 };
-[[nodiscard]] inline std::array<Conditions*, 5> loads_of(InpConditions& all) {
-  return {&all.forces, &all.pressures, &all.body_forces, &all.centrifugal, &all.weights};
+[[nodiscard]] inline std::array<Conditions*, 6> loads_of(InpConditions& all) {
+  return {&all.forces,      &all.pressures,   &all.tractions,
+          &all.body_forces, &all.centrifugal, &all.weights};
 }
 
 /// A GRAV of a part of the bodies: by which set, along which direction.

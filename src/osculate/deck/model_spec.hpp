@@ -36,7 +36,8 @@ namespace osculate::deck {
 [[nodiscard]] BoundKey<Description> output_key();
 
 [[nodiscard]] BoundKey<Step> contact_changes_key();
-/// `initial` of a contact pair.
+/// `sampling` and `initial` of a contact pair.
+[[nodiscard]] BoundKey<Contact> sampling_key();
 [[nodiscard]] BoundKey<Contact> initial_gaps_key();
 /// Cells, materials and equations that change when a step begins.
 [[nodiscard]] std::vector<BoundKey<Step>> body_change_keys();

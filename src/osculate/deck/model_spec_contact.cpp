@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "osculate/contact/law/catalogue.hpp"
 #include "osculate/core/text.hpp"
 #include "osculate/deck/bind.hpp"
 #include "osculate/deck/model_spec.hpp"
@@ -7,44 +8,6 @@
 
 namespace osculate::deck {
 namespace {
-
-Spec sampling_spec() {
-  const Spec points = integer("Points per direction of a facet.").at_most(20);
-  const Spec parts = integer("Equal parts per direction of a facet, each with its own points.")
-                         .at_least(1)
-                         .at_most(50)
-                         .otherwise("1")
-                         .such_as("2");
-  return either(
-             "Where the slave side is tested for contact.",
-             {choice(
-                  "Points of the slave side.",
-                  {word("auto", SamplingRule::automatic,
-                        "with normal: {penalty: auto}, where the master has a mesh or nodes would "
-                        "scatter: Gauss points, 2 per direction, 3 on second-order facets; "
-                        "else, with two passes, edges, weight: node, explicit dynamics "
-                        "and tractions that are corrected or unknown: nodes"),
-                   word("nodes", SamplingRule::nodes, "the slave nodes"),
-                   word("mortar", SamplingRule::mortar,
-                        "integrals over the overlaps of slave and master facets, "
-                        "weighted by dual functions of the slave's nodes")}),
-              map("Points of a quadrature rule on the slave facets (segment to segment).",
-                  {optional("gauss", Spec(points).at_least(1).such_as("2")),
-                   optional("lobatto", Spec(points).at_least(2).such_as("5")),
-                   optional("subdomains", parts)})
-                  .with(Group::Rule::exactly_one, {"gauss", "lobatto"})})
-      .otherwise("auto")
-      .such_as("{lobatto: 5, subdomains: 2}");
-}
-
-Marked<Sampling> sampling_of(const Value& v) {
-  if (v.alternative == 0) return {{word_of<SamplingRule>(v).value}, v.mark};
-  const Value* const gauss = v.find("gauss");
-  return {
-      {gauss ? SamplingRule::gauss : SamplingRule::lobatto,
-       integer_of(gauss ? *gauss : v.at("lobatto")).value, integer_of(v.at("subdomains")).value},
-      v.mark};
-}
 
 /// What holds points together that are pulled apart.
 BoundKeys<NormalDescription> holding_keys() {
@@ -85,6 +48,18 @@ Spec damping_spec() {
       .with(Group::Rule::exactly_one, names_of(laws))
       .otherwise_as("none")
       .such_as("{restitution: 0.5}");
+}
+
+/// What begins in a step has no memory of where a contact began.
+Spec changed_damping_spec() {
+  std::vector<Key> laws = damping_law_keys();
+  std::erase_if(laws, [](const Key& key) { return key.name != contact::Viscous::key; });
+  return either(
+             "Damping in the normal direction from now on, in place of `normal: damping` of the "
+             "pair.",
+             {choice("No damping.", {Choice{"none", "no damping", 0, true}}),
+              map("A law of damping.", laws).with(Group::Rule::exactly_one, names_of(laws))})
+      .such_as("{viscous: 0.5}");
 }
 
 Spec normal_spec() {
@@ -336,8 +311,7 @@ BoundKeys<Contact> with_laws(std::vector<BoundKey<Contact>> keys) {
                .otherwise_as("no limit")
                .such_as("0.5"))});
   const std::vector<BoundKey<C>> laws{
-      {optional("sampling", sampling_spec()),
-       [](C& c, const Value& v) { c.sampling = sampling_of(v); }},
+      sampling_key(),
       {optional("normal", normal_spec()), [](C& c, const Value& v) { read_normal(v, c.normal); }},
       {optional("friction", friction_spec()), read_friction},
       {optional("offset", offset_spec()),
@@ -397,6 +371,16 @@ BoundKeys<Contact> all_keys() {
         [](C& c, const Value& v) {
           for (const Value& item : v.items)
             c.exclude.push_back({name_of(item.items[0]), name_of(item.items[1])});
+        }},
+       {optional("exclude_surfaces",
+                 list("Pairs of sets, of facets or nodes, that do not touch, whichever is slave; "
+                      "the same set twice: not itself. Beside them those of `pairs` and of `ties`.",
+                      list("Two sets.", text("Set.").such_as("low.top")).count(2, 2))
+                     .otherwise("[]")
+                     .such_as("[[low.top, high.bottom]]")),
+        [](C& c, const Value& v) {
+          for (const Value& item : v.items)
+            c.exclude_surfaces.push_back({name_of(item.items[0]), name_of(item.items[1])});
         }}});
 }
 
@@ -408,7 +392,11 @@ Contact all_of(const Value& v) {
 
 std::vector<Contact> contacts_of(const Value& v) {
   if (v.alternative == 0) return pair_keys().read_all(v);
-  if (v.alternative == 1) return {all_of(v.at("all"))};
+  if (v.alternative == 1) {
+    std::vector<Contact> out = pair_keys().read_all(v.at("pairs"));
+    out.push_back(all_of(v.at("all")));
+    return out;
+  }
   SourceNode nothing;  // `all` alone is `{all: {}}`
   nothing.kind = SourceNode::Kind::map;
   nothing.line = v.mark.line;
@@ -426,10 +414,16 @@ BoundKeys<ContactChange> change_keys() {
             [](C& c, const Value& v) {
               if (v.given) read_normal(v, c.normal.emplace());
             }},
-           {optional("friction", friction_spec()), [](C& c, const Value& v) {
+           {optional("friction", friction_spec()),
+            [](C& c, const Value& v) {
               if (!v.given) return;
               c.friction.emplace();
               if (v.alternative != 0) *c.friction = friction_law_of(v);
+            }},
+           {optional("damping", changed_damping_spec()), [](C& c, const Value& v) {
+              if (!v.given) return;
+              c.damping.emplace();
+              if (v.alternative != 0) *c.damping = damping_law_of(v);
             }}}};
 }
 
@@ -440,7 +434,8 @@ BoundKey<Step> contact_changes_key() {
   return {optional("contact",
                    list("What changes of contact pairs when the step begins, and stays so.",
                         keys.spec("Change of one pair.")
-                            .with(Group::Rule::at_least_one, {"active", "normal", "friction"}))
+                            .with(Group::Rule::at_least_one,
+                                  {"active", "normal", "friction", "damping"}))
                        .otherwise("[]")
                        .such_as("[{pair: floor, friction: {coulomb: {mu: 0.1, penalty: 2e6}}}]")),
           [keys](Step& s, const Value& v) { s.contact = keys.read_all(v); }};
@@ -457,7 +452,13 @@ BoundKey<Description> contact_key() {
                                 all_keys().spec(
                                     "All bodies with each other, with the rigid ones and with "
                                     "themselves; pairs are called NAME.A-B, bodies are numbered "
-                                    "in the order of the mesh."))}),
+                                    "in the order of the mesh.")),
+                       optional("pairs",
+                                list("Contact pairs with keys of their own. Their sides do not "
+                                     "touch each other by `all` as well, and what `ties` hold "
+                                     "together does not either.",
+                                     pair_keys().spec("One contact pair."))
+                                    .otherwise("[]"))}),
                   choice("The same, for short.",
                          {Choice{"all", "all bodies, with the default of every key", 0, true}})})
               .otherwise("[]")

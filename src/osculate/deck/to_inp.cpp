@@ -8,6 +8,7 @@
 #include "osculate/deck/to_inp_parts.hpp"
 #include "osculate/io/inp/cards.hpp"
 #include "osculate/model/bulk.hpp"
+#include "osculate/pairing/sampling.hpp"
 
 namespace osculate::deck {
 namespace {
@@ -436,6 +437,14 @@ WrittenDeck deck_of(const Description& d, const BasicBuilt<Dim>& built) {
         "CalculiX has no elements with mean dilatation (C3D8H, CPE4H, ...) and no plane ones with "
         "enhanced strains (CPE4I, ...): Osculate and Abaqus read them; `formulation: full` is "
         "CPE4");
+  for (const auto& pair : built.model.pairs)
+    if (pair.definition.overlap == pairing::InitialOverlap::given &&
+        pairing::sampled_at_nodes(pair.definition.slave))
+      deck.notes.push_back(fmt::format(
+          "CalculiX passes over *CLEARANCE with NODE TO SURFACE: there contact '{}' has the gaps "
+          "of "
+          "the mesh; with Gauss points (`sampling`) it is SURFACE TO SURFACE, which knows it",
+          pair.name));
   if (has_full_wedges(built.model))
     deck.notes.push_back(
         "C3D6 has two points here as in CalculiX: `formulation: reduced` of wedge6 cells; those of "

@@ -1,6 +1,7 @@
 // Contact pairs and tied surfaces of a model file as cards of a deck.
 #include <algorithm>
 
+#include "osculate/contact/law/catalogue.hpp"
 #include "osculate/deck/to_inp_parts.hpp"
 #include "osculate/mesh/node_areas.hpp"
 #include "osculate/pairing/sampling.hpp"
@@ -67,24 +68,59 @@ bool all_in_time(const Description& d) {
   });
 }
 
+/// What damps a pair, by its value; 0: nothing does.
+double viscous_of(const std::optional<GivenLaw<contact::DampingLaw>>& law) {
+  const auto* const viscous = law ? law->law.as<contact::Viscous>() : nullptr;
+  return viscous ? viscous->coefficient : 0;
+}
+
+/// The damping of a pair, which acts in steps with inertia, and not in those without, as that of a
+/// deck does; fails where it acts otherwise.
+double written_damping(const Description& d, const Contact& contact, const std::string& path,
+                       Leaves& leaves) {
+  const std::string own = path + ".normal.damping.viscous";
+  double now = viscous_of(contact.normal.damping), one = now;
+  if (now > 0) (void)leaves.number(own);
+  for (std::size_t s = 0; s < d.steps.size(); ++s) {
+    const Step& step = d.steps[s];
+    std::string said = own;
+    for (std::size_t k = 0; k < step.contact.size(); ++k) {
+      const ContactChange& change = step.contact[k];
+      if (change.pair.value != contact.name.value || !change.damping) continue;
+      said = fmt::format("steps[{}].contact[{}].damping", s, k);
+      now = viscous_of(*change.damping);
+      if (one == 0) one = now;
+      if (now > 0) said += ".viscous";
+      (void)(now > 0 ? leaves.number(said).has_value() : leaves.text(said).empty());
+    }
+    const bool at_rest =
+        !step.dynamics && !step.modal && !step.harmonic && !step.modes && !step.buckling;
+    if ((at_rest && now > 0) || (now > 0 && now != one) || (step.dynamics && now != one))
+      leaves.fail(said,
+                  "of an input file acts in steps with `dynamics`, in all of them alike, and "
+                  "in no others");
+  }
+  return one;
+}
+
 /// `*SURFACE INTERACTION` of the laws that stand under a key.
-std::string written_laws(const std::string& path, const std::string& name, bool all_in_time,
-                         Leaves& leaves) {
+std::string written_laws(const Description& d, const Contact& contact, const std::string& path,
+                         const std::string& name, Leaves& leaves) {
   std::string out = fmt::format("*SURFACE INTERACTION, NAME={}\n", name);
+  (void)leaves.text(path + ".normal");  // {}: hard
   out += written_pressure(path + ".normal", leaves);
   const WrittenShear shear = written_shear(path + ".friction", leaves);
   out += shear.text;
-  const auto damper = leaves.number(path + ".normal.damping.viscous");
-  if (!damper && shear.film == 0) return out;
-  if (!all_in_time)
-    leaves.fail(path + (damper ? ".normal.damping.viscous" : ".friction"),
-                "of an input file acts in steps with `dynamics` alone");
-  if (!damper || *damper == 0)
+  const double damper = written_damping(d, contact, path, leaves);
+  if (damper == 0 && shear.film == 0) return out;
+  if (shear.film > 0 && !all_in_time(d))
+    leaves.fail(path + ".friction", "of an input file acts in steps with `dynamics` alone");
+  if (damper == 0)
     leaves.fail(path + ".friction",
                 "a film is written as a share of `normal.damping: viscous`, which is missing");
   const std::string share =
-      shear.film > 0 ? ", TANGENT FRACTION=" + exact(shear.film / *damper) : "";
-  return out + fmt::format("*CONTACT DAMPING{}\n{}\n", share, exact(*damper));
+      shear.film > 0 ? ", TANGENT FRACTION=" + exact(shear.film / damper) : "";
+  return out + fmt::format("*CONTACT DAMPING{}\n{}\n", share, exact(damper));
 }
 
 // ---- pairs ------------------------------------------------------------------------------------
@@ -161,16 +197,40 @@ std::string adjusted(const Contact& contact, const std::string& path, InpMesh<Di
 
 std::string law_name(const std::string& pair) { return fmt::format("law_of_{}", pair); }
 
+/// Path of a pair's keys: beside `all` it stands in a list of its own.
+std::string path_of(const Description& d, std::size_t pair) {
+  if (d.contact[pair].all) return "contact.all";
+  return fmt::format("contact{}[{}]", d.contact.back().all ? ".pairs" : "", pair);
+}
+
+template <int Dim>
+void write_all(const Description& d, const Contact& contact, InpMesh<Dim>& mesh, Leaves& leaves,
+               std::string& out) {
+  (void)leaves.text("contact");
+  (void)leaves.text("contact.all");
+  (void)leaves.text("contact.all.name");
+  const std::string law = law_name(contact.name.value);
+  out += written_laws(d, contact, "contact.all", law, leaves);
+  out += "*CONTACT\n*CONTACT INCLUSIONS, ALL EXTERIOR\n";
+  if (!contact.exclude_surfaces.empty()) out += "*CONTACT EXCLUSIONS\n";
+  for (const std::array<Name, 2>& pair : contact.exclude_surfaces) {
+    const std::string first = mesh.surface(pair[0]);
+    out += fmt::format("{}, {}\n", first, mesh.surface(pair[1]));
+  }
+  leaves.take("contact.all.exclude_surfaces");
+  out += fmt::format("*CONTACT PROPERTY ASSIGNMENT\n, , {}\n", law);
+}
+
 template <int Dim>
 void write_pair(const Description& d, const model::BasicModel<Dim>& m, std::size_t k,
                 InpMesh<Dim>& mesh, Leaves& leaves, std::string& out) {
   const Contact& contact = d.contact[k];
-  const std::string path = fmt::format("contact[{}]", k);
+  const std::string path = path_of(d, k);
   for (const char* const key : {".name", ".master", ".slave"}) (void)leaves.text(path + key);
   const PairType type = type_of_pair(contact, m, mesh, path, leaves);
   const std::string slave = mesh.surface(contact.slave, type.of_nodes),
                     master = mesh.surface(contact.master);
-  out += written_laws(path, law_name(contact.name.value), all_in_time(d), leaves);
+  out += written_laws(d, contact, path, law_name(contact.name.value), leaves);
   const std::string adjust = adjusted(contact, path, mesh, leaves);
   out += fmt::format("*CONTACT PAIR, INTERACTION={}, TYPE={}{}\n{}, {}\n",
                      law_name(contact.name.value), type.type, adjust, slave, master);
@@ -184,17 +244,11 @@ void write_pair(const Description& d, const model::BasicModel<Dim>& m, std::size
 template <int Dim>
 void write_contact(const Description& d, const model::BasicModel<Dim>& m, InpMesh<Dim>& mesh,
                    Leaves& leaves, std::string& out) {
-  if (d.contact.size() == 1 && d.contact[0].all) {
-    (void)leaves.text("contact");
-    (void)leaves.text("contact.all");
-    (void)leaves.text("contact.all.name");
-    out += written_laws("contact.all", "law_of_all", all_in_time(d), leaves);
-    out +=
-        "*CONTACT\n*CONTACT INCLUSIONS, ALL EXTERIOR\n*CONTACT PROPERTY ASSIGNMENT\n, , "
-        "law_of_all\n";
-    return;
-  }
-  for (std::size_t k = 0; k < d.contact.size(); ++k) write_pair(d, m, k, mesh, leaves, out);
+  for (std::size_t k = 0; k < d.contact.size(); ++k)
+    if (d.contact[k].all)
+      write_all(d, d.contact[k], mesh, leaves, out);
+    else
+      write_pair(d, m, k, mesh, leaves, out);
 }
 
 template <int Dim>
@@ -219,10 +273,10 @@ std::string contact_changes(const Description& d, std::size_t step, InpMesh<Dim>
     const std::string path = fmt::format("steps[{}].contact[{}]", step, k);
     const auto of = std::ranges::find(d.contact, change.pair.value,
                                       [](const Contact& one) { return one.name.value; });
-    if (of == d.contact.end() || of->all) continue;  // its keys have no counterpart
+    if (of == d.contact.end()) continue;  // its keys have no counterpart
     (void)leaves.text(path + ".pair");
-    (void)leaves.text(path + ".active");
-    if (change.active)
+    if (!of->all) (void)leaves.text(path + ".active");
+    if (change.active && !of->all)
       out += fmt::format("*MODEL CHANGE, TYPE=CONTACT PAIR, {}\n{}, {}\n",
                          *change.active ? "ADD" : "REMOVE", mesh.surface_named(of->slave),
                          mesh.surface_named(of->master));
@@ -232,7 +286,7 @@ std::string contact_changes(const Description& d, std::size_t step, InpMesh<Dim>
     if (!change.friction) continue;
     const WrittenShear shear = written_shear(path + ".friction", leaves);
     const auto pair = static_cast<std::size_t>(of - d.contact.begin());
-    const WrittenShear first = written_shear(fmt::format("contact[{}].friction", pair), leaves);
+    const WrittenShear first = written_shear(path_of(d, pair) + ".friction", leaves);
     if (shear.film != 0 || first.film != 0)
       throw core::InputError(change.mark, "changes of friction beside a film are not written");
     out += fmt::format("*CHANGE FRICTION, INTERACTION={}\n{}", law_name(change.pair.value),

@@ -40,15 +40,11 @@ std::vector<std::vector<double>> first_points(const std::vector<std::vector<doub
 /// size of the yield surface as `*CYCLIC HARDENING` where it changes.
 void write_kinematic(const std::string& law, std::vector<std::vector<double>> size, Leaves& leaves,
                      std::string& out) {
+  constexpr double far = 1024;  // of a modulus: no strain goes beyond inp_far_strain
   const auto modulus = leaves.number(law + ".kinematic");
   std::vector<std::vector<double>> moves =
-      modulus ? std::vector<std::vector<double>>{{0, 0}, {*modulus, 1}}
+      modulus ? std::vector<std::vector<double>>{{0, 0}, {*modulus * far, far}}
               : rows_of(law + ".kinematic", leaves);
-  // two points are read as a modulus, which goes on beyond them
-  if (!modulus && moves.size() == 2 && moves[1][1] > 0) {
-    moves.push_back(moves[1]);
-    moves.back()[1] *= 2;
-  }
   const std::vector<std::vector<double>> first = first_points(size);
   const bool hardens = first.size() < size.size();
   if (!hardens && first.size() > 1 && first_points(moves).size() != first.size())

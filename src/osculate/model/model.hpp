@@ -99,6 +99,7 @@ struct BasicPairChange {
   contact::NormalLaw normal;
   std::optional<contact::FrictionLaw> friction;
   pairing::Separation<Dim> separation{};
+  std::optional<contact::DampingLaw> damping{};
 };
 
 /// A node of the dependent face of a sector of a ring.

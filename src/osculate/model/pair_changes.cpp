@@ -21,6 +21,7 @@ pairing::PairDefinition<Dim> pair_in(const BasicModel<Dim>& original, std::size_
     if (change.pair != pair || static_cast<std::ptrdiff_t>(change.step) > step) continue;
     now.normal = change.normal;
     now.friction = change.friction;
+    now.damping = change.damping;
     now.separation = change.active ? change.separation : pairing::Separation<Dim>{};
     now.depth = change.active ? original.pairs[pair].definition.depth : nowhere;
   }

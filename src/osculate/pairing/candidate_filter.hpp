@@ -12,6 +12,17 @@
 
 namespace osculate::pairing {
 
+/// Facets that nodes of a slave do not touch, since another contact has both, or nothing is to.
+struct HiddenFacets {
+  std::vector<std::vector<bool>> kinds;  ///< by facet of the master
+  std::vector<int> of_node;              ///< kind of each slave node; -1: none. Empty: of all
+
+  [[nodiscard]] bool has(std::size_t node, Index facet) const {
+    return node < of_node.size() && of_node[node] >= 0 &&
+           kinds[static_cast<std::size_t>(of_node[node])][static_cast<std::size_t>(facet)];
+  }
+};
+
 /// Which places of a master a slave node may touch where the whole surface of a body, or the node's
 /// own surface, is the master. Without limits (the default) the nearest facet that does not face
 /// the same way as the node is taken, however far away or deep.
@@ -40,6 +51,8 @@ namespace osculate::pairing {
 ///                      until both its ends lie on plates, fail; the flanks of a notch, which faced
 ///                      each other, pass at any depth, and the lips of a fold while they are not
 ///                      deeper than a quarter of the way between them
+///            hidden    the nearest place that passes is on no facet of `hidden`; a node there
+///            touches nothing, also not what is beside it
 /// Areas      of the node's facets only those within 60 degrees of facing the place count (all, if
 ///            none is): the node at the edge of a block that lies flat carries the pressure on its
 ///            lower face, not on the side
@@ -48,6 +61,7 @@ template <int Dim>
 struct CandidateFilter {
   bool own = false;  ///< the master is the slave's own surface, facet by facet
   double distance = std::numeric_limits<double>::infinity();
+  HiddenFacets hidden{};
   // Filled by `prepare`:
   std::vector<double> thickness;    ///< per slave node, infinite where more than twice `reach`
   std::vector<Vec<Dim>> reference;  ///< own surface: positions of all nodes

@@ -7,6 +7,7 @@
 #include "osculate/core/error.hpp"
 #include "osculate/pairing/combinations.hpp"
 #include "osculate/pairing/mortar.hpp"
+#include "osculate/pairing/placed_points.hpp"
 #include "osculate/pairing/point_sample.hpp"
 #include "osculate/pairing/reentrant_edge.hpp"
 #include "osculate/pairing/reentrant_vertex.hpp"
@@ -307,13 +308,20 @@ ActiveSet<Dim> evaluated_active_set(const PairEvaluation<Dim>& evaluation,
 
 namespace {
 
+/// Whether a point lies over or behind a place of the master, not beyond its border.
+template <int Dim>
+bool has_place(const ProjectedPoint<Dim>& projected) {
+  return projected.projection.feature != Feature::none && !projected.projection.beyond_end &&
+         contact::inside_domain(projected.kinematics);
+}
+
 /// The part of the gap at the start that does not count; with a clearance that decides also whether
 /// the point is in contact.
 template <int Dim>
-double relieve(const PairDefinition<Dim>& pair, PointHistory<Dim>& history) {
+double relieve(const PairDefinition<Dim>& pair, bool placed, PointHistory<Dim>& history) {
   const double gap = history.gap - pair.offset;
   if (pair.overlap != InitialOverlap::given) return history.active ? std::min(0.0, gap) : 0.0;
-  if (history.facet < 0) return 0;
+  if (!placed) return 0;
   PointContext<Dim> context;
   context.relieved = gap - pair.clearance;
   history.active = is_closed(pair, history, history.gap, context);
@@ -333,18 +341,21 @@ PairState<Dim> initial_state(const PairDefinition<Dim>& pair, Points<Dim> x) {
   refresh(pair, x, false, work);
   PairState<Dim> state;
   state.points.resize(pair.slave.points.size());
+  std::vector<bool> placed(state.points.size());
   for (std::size_t i = 0; i < state.points.size(); ++i) {
     const ProjectedPoint<Dim> projected = project_point<Dim>(pair, work, x, i, {});
     if (projected.projection.feature == Feature::none) continue;
     PointHistory<Dim>& h = state.points[i];
     h = history_at<Dim>(projected);
     if (projected.projection.beyond_end) h.gap = std::abs(h.gap);
-    if (projected.projection.beyond_end || !contact::inside_domain(projected.kinematics)) continue;
+    placed[i] = has_place<Dim>(projected);
+    if (!placed[i]) continue;
     hold(pair, h);
     h.active = is_closed(pair, h, h.gap);
   }
   if (pair.overlap != InitialOverlap::acts)
-    for (PointHistory<Dim>& h : state.points) state.overlap.push_back(relieve(pair, h));
+    for (std::size_t i = 0; i < state.points.size(); ++i)
+      state.overlap.push_back(relieve<Dim>(pair, placed[i], state.points[i]));
   if constexpr (Dim == 3) {
     if (!edges_of(pair)) return state;
     // By a whole evaluation: it tells which edge-edge contacts are the nodes' own contacts.
@@ -357,6 +368,18 @@ PairState<Dim> initial_state(const PairDefinition<Dim>& pair, Points<Dim> x) {
   }
   return state;
 }
+
+template <int Dim>
+std::vector<bool> placed_points(const PairDefinition<Dim>& pair, Points<Dim> x) {
+  PairEvaluation<Dim> work;
+  refresh(pair, x, false, work);
+  std::vector<bool> placed(pair.slave.points.size());
+  for (std::size_t i = 0; i < placed.size(); ++i)
+    placed[i] = has_place<Dim>(project_point<Dim>(pair, work, x, i, {}));
+  return placed;
+}
+template std::vector<bool> placed_points<2>(const PairDefinition<2>&, Points<2>);
+template std::vector<bool> placed_points<3>(const PairDefinition<3>&, Points<3>);
 
 template <int Dim>
 PairMultipliers<Dim> initial_multipliers(const PairDefinition<Dim>& pair,

@@ -82,7 +82,7 @@ template <int Dim>
     query.filter = &rules;
   }
   const Projection<Dim> p = closest(pair.master, work.tree, x, query);
-  if (p.feature == projection::Feature::none) return {};
+  if (p.feature == projection::Feature::none || pair.filter.hidden.has(i, p.facet)) return {};
   return projected_point(pair.master, p, query.point, x);
 }
 

@@ -11,6 +11,7 @@
 #include "osculate/result/penetration.hpp"
 #include "osculate/result/pulling.hpp"
 #include "osculate/result/soft_friction.hpp"
+#include "osculate/result/without_clearance.hpp"
 
 namespace osculate::result {
 namespace {
@@ -58,6 +59,7 @@ std::vector<std::string> Watch<Dim>::take(const model::BasicSystem<Dim>& system,
   const std::size_t pairs = model.pairs.size();
   deepest.resize(pairs);
   front.resize(pairs);
+  told.resize(pairs);
   memory.passed.resize(pairs);
   for (std::size_t p = 0; p < pairs; ++p) {
     const model::BasicContactPair<Dim>& pair = model.pairs[p];
@@ -67,6 +69,11 @@ std::vector<std::string> Watch<Dim>::take(const model::BasicSystem<Dim>& system,
     measure_sticking(pair, contact, deepest[p]);
     if (progress.fraction >= 1.0)
       add(pulling(pair, contact, model.steps[static_cast<std::size_t>(progress.step)].name), texts);
+    if (!told[p]) {
+      std::string bare = without_clearance(model, pair, contact, state.pairs[p]);
+      told[p] = bare.empty() ? 0 : 1;
+      add(std::move(bare), texts);
+    }
     if (!memory.passed[p]) {
       const std::string through = model::passed_through(model, pair, front[p], contact, now);
       memory.passed[p] = through.empty() ? 0 : 1;

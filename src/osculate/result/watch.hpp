@@ -18,6 +18,7 @@ struct Watch {
   std::vector<std::vector<char>> front{};  ///< points of each pair, of the last increment
   std::vector<Vec<Dim>> now{};             ///< configuration of the last increment
   bool moved = false;                      ///< there was an increment
+  std::vector<char> told{};                ///< of each pair: of points without a clearance
 
   /// Before the first increment.
   [[nodiscard]] std::vector<std::string> begin(const model::BasicSystem<Dim>& system,

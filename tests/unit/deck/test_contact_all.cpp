@@ -29,7 +29,7 @@ TEST(ContactAll, MakesThePairsOfAllBodiesButTheExcludedOnes) {
   EXPECT_EQ(back.definition.master.facets.size(), there.definition.slave.boundary.facets.size());
   EXPECT_EQ(there.definition.master.facets.size(), back.definition.slave.boundary.facets.size());
   EXPECT_EQ(pair_named(built, "any.1-floor").definition.pass_factor, 1);
-  ASSERT_EQ(built.notes.size(), 3u);
+  ASSERT_EQ(built.notes.size(), 4u);
   EXPECT_EQ(built.notes[1], "body 2 is mid, 14 boundary facets");
 }
 
@@ -66,6 +66,84 @@ TEST(ContactAll, HistoryOfOnePairOrOfAll) {
   EXPECT_NEAR(values[5], -values[6], 1e-7 * values[5]);
 }
 
+/// `all.yaml` with other keys beside `all`.
+std::string beside(const std::string& of_all, const std::string& pairs, const std::string& rest) {
+  return edited(
+      edited(test_file("all.yaml"), "    exclude_surfaces: [[mid.left, top.left]]\n  pairs: []\n",
+             of_all + pairs),
+      "steps:", rest + "steps:");
+}
+
+/// Whether a node of a pair's slave touches a facet of its master.
+bool sees(const model::ContactPair& pair, Index node, Index facet) {
+  const std::vector<Index>& nodes = pair.definition.slave.nodes;
+  const auto at = std::find(nodes.begin(), nodes.end(), node);
+  EXPECT_NE(at, nodes.end());
+  return !pair.definition.filter.hidden.has(static_cast<std::size_t>(at - nodes.begin()), facet);
+}
+
+/// Facets of a pair's master at this height.
+std::vector<Index> facets_at(const Built& built, const model::ContactPair& pair, double y) {
+  std::vector<Index> out;
+  const auto& facets = pair.definition.master.facets;
+  for (std::size_t f = 0; f < facets.size(); ++f) {
+    const auto on = [&](Index n) {
+      return std::abs(built.model.reference[static_cast<std::size_t>(n)].y() - y) < 1e-9;
+    };
+    if (on(facets[f].nodes[0]) && on(facets[f].nodes[1])) out.push_back(static_cast<Index>(f));
+  }
+  return out;
+}
+
+// Whichever is slave, and nothing else: the nodes of the surfaces see the other facets, and other
+// nodes see theirs.
+TEST(ContactAll, LeavesSurfacesToOthers) {
+  const std::string named = "    exclude_surfaces: [[mid.bottom, low.top]]\n";
+  const std::string paired =
+      "  pairs: [{name: own, master: low.top, slave: mid.bottom, normal: {penalty: 500}}]\n";
+  const std::string tied = "ties: [{master: low.top, slave: mid.bottom}]\n";
+  for (const std::string& text :
+       {beside(named, "", ""), beside("", paired, ""), beside("", "", tied)}) {
+    const Built built = build_text(text);
+    const model::ContactPair& there = pair_named(built, "any.1-2");
+    const std::vector<Index> top = facets_at(built, there, 1), bottom = facets_at(built, there, 0);
+    ASSERT_FALSE(top.empty());
+    ASSERT_FALSE(bottom.empty());
+    for (const Index n : there.definition.slave.nodes) {
+      const bool on = std::abs(built.model.reference[static_cast<std::size_t>(n)].y() - 1) < 1e-9;
+      EXPECT_EQ(sees(there, n, top.front()), !on);
+      EXPECT_TRUE(sees(there, n, bottom.front()));
+    }
+    const model::ContactPair& back = pair_named(built, "any.1-2.reversed");
+    const std::vector<Index> low = facets_at(built, back, 1), high = facets_at(built, back, 2);
+    for (const Index n : back.definition.slave.nodes) {
+      const bool on = std::abs(built.model.reference[static_cast<std::size_t>(n)].y() - 1) < 1e-9;
+      EXPECT_EQ(sees(back, n, low.front()), !on);
+      EXPECT_TRUE(sees(back, n, high.front()));
+    }
+    EXPECT_TRUE(pair_named(built, "any.2-3").definition.filter.hidden.kinds.empty());
+  }
+}
+
+// The force goes through the pair of its own, and not twice.
+TEST(ContactAll, APairOfItsOwnCarriesAll) {
+  const std::string paired =
+      "  pairs: [{name: own, master: low.top, slave: mid.bottom, normal: {penalty: 1000}}]\n";
+  const std::string text =
+      edited(beside("", paired, ""), "{on: any.1-2, of: force_y}", "{on: own, of: force_y}");
+  const Built built = build_text(text);
+  std::vector<double> values;
+  const model::AnalysisResult result =
+      run_to_end(built, 1, [&](model::System& system, const model::State& state) {
+        for (const model::HistoryRequest& request : built.history)
+          values.push_back(model::history_value(system, built.model, state, request));
+      });
+  ASSERT_EQ(result.outcome, solve::Outcome::converged) << result.message;
+  EXPECT_EQ(values[1], 0);
+  EXPECT_GT(values[2], 1);
+  EXPECT_NEAR(values[5], -values[6], 1e-7 * values[5]);
+}
+
 TEST(ContactAll, Refusals) {
   const std::string text = test_file("all.yaml");
   const auto expect = [](const std::string& message, const std::string& part) {
@@ -73,6 +151,11 @@ TEST(ContactAll, Refusals) {
   };
   expect(build_refusal(edited(text, "[low, top]", "[low, tpo]")),
          "contact.all.exclude[0][1]: unknown body 'tpo'; known: 1, 2, 3, floor, low, mid, top");
+  expect(build_refusal(beside("    exclude_surfaces: [[mid.bottom, lo.top]]\n", "", "")),
+         "unknown set 'lo.top'");
+  expect(
+      build_refusal(beside("", "  pairs: [{name: any, master: low.top, slave: mid.bottom}]\n", "")),
+      "'any'");
   expect(build_refusal(edited(text, "any.2-3, of: normal_force", "any.2-4, of: normal_force")),
          "output.history[2].on: unknown contact pair 'any.2-4'; did you mean 'any.");
 }

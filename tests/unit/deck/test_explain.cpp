@@ -66,6 +66,7 @@ TEST(Explain, ManyWaysToNameAKey) {
   for (const char* const key : {"contact[0].friction.coulomb.mu", "contact[].friction.coulomb.mu"})
     EXPECT_EQ(explain_model_key(key), mu) << key;
   const std::string both = mu + "\n" + explain_model_key("contact.all.friction.coulomb.mu") + "\n" +
+                           explain_model_key("contact.pairs.friction.coulomb.mu") + "\n" +
                            explain_model_key("steps.contact.friction.coulomb.mu");
   for (const char* const key : {"coulomb.mu", "friction.coulomb.mu"})
     EXPECT_EQ(explain_model_key(key), both) << key;

@@ -178,7 +178,6 @@ TEST(InpBetweenSteps, LawsThatAreNoPenalty) {
   // in steps with inertia alone
   const std::string at_rest = part(dry + damped + pair + press, "contact");
   EXPECT_EQ(at_rest.find("viscous"), std::string::npos) << at_rest;
-  expect_in(message_of(dry + damped + pair + press + in_time), "acts in steps with *DYNAMIC alone");
   const std::string mortar = "*CONTACT PAIR, INTERACTION=SOFT, TYPE=MORTAR\nSLAVE, MASTER\n";
   const std::string unknown = "enforcement: lagrange_multiplier";
   EXPECT_EQ(part(exponential + mortar + press, "contact").find(unknown), std::string::npos);
@@ -188,6 +187,63 @@ TEST(InpBetweenSteps, LawsThatAreNoPenalty) {
       "*CONTACT PAIR, INTERACTION=DRY, TYPE=NODE TO SURFACE, ADJUST=FOOT\nSLAVE, MASTER\n";
   expect_in(part(dry + adjusted + press, "contact"), "initial: {nodes: FOOT}");
   EXPECT_EQ(message_of(dry + adjusted + press), "no error");
+}
+
+TEST(InpBetweenSteps, LawsOfAbaqus) {
+  const auto contact = [&](const std::string& law) {
+    return part("*SURFACE INTERACTION, NAME=LAW\n" + law +
+                    "*CONTACT PAIR, INTERACTION=LAW, TYPE=SURFACE TO SURFACE\nSLAVE, MASTER\n" +
+                    press,
+                "contact");
+  };
+  // mu = mu_k + (mu_s - mu_k) exp(-d V)
+  expect_in(contact("*FRICTION, EXPONENTIAL DECAY\n0.3, 0.2, 4.\n"),
+            "mu: 0.3\n        kinetic: 0.2\n        decay: {speed: 0.25}\n");
+  expect_in(contact("*FRICTION, EXPONENTIAL DECAY\n0.3, 0.2, 0.\n"), "coulomb: {mu: 0.3}");
+  expect_in(contact("*SURFACE BEHAVIOR, NO SEPARATION, PRESSURE-OVERCLOSURE=HARD\n"),
+            "normal: {separation: no_separation}");
+  expect_in(contact("*SURFACE BEHAVIOR, NO SEPARATION, PRESSURE-OVERCLOSURE=LINEAR\n5E4\n"),
+            "normal: {separation: no_separation, penalty: 50000}");
+  expect_in(message_of("*SURFACE INTERACTION, NAME=LAW\n*SURFACE BEHAVIOR, NO SEPARATION, "
+                       "PRESSURE-OVERCLOSURE=TIED\n5E4\n*CONTACT PAIR, INTERACTION=LAW, "
+                       "TYPE=SURFACE TO SURFACE\nSLAVE, MASTER\n" +
+                       press),
+            "NO SEPARATION does not go with TIED");
+  EXPECT_EQ(message_of(dry +
+                       "*CONTACT PAIR, INTERACTION=DRY, TYPE=SURFACE TO SURFACE, NO "
+                       "THICKNESS\nSLAVE, MASTER\n" +
+                       press),
+            "no error");
+}
+
+TEST(InpBetweenSteps, DampingComesAndGoesWithInertia) {
+  const std::string in_time = "*STEP\n*DYNAMIC, DIRECT\n0.1, 1.\n*END STEP\n";
+  const std::string vibrations = "*STEP\n*FREQUENCY\n2\n*END STEP\n";
+  const std::string law = dry + "*CONTACT DAMPING, TANGENT FRACTION=0.5\n3\n" + pair;
+  const std::string rests = law + press + vibrations + in_time + in_time + press;
+  const std::string at_first = part(rests, "contact");
+  EXPECT_EQ(at_first.find("damping"), std::string::npos) << at_first;
+  EXPECT_EQ(at_first.find("viscous"), std::string::npos) << at_first;
+  const std::string steps = part(rests, "steps");
+  const auto count = [&](const std::string& what) {
+    std::size_t n = 0;
+    for (std::size_t at = steps.find(what); at != std::string::npos; at = steps.find(what, at + 1))
+      ++n;
+    return n;
+  };
+  EXPECT_EQ(count("contact:"), 2u) << steps;  // when the third step begins, and the last one
+  expect_in(steps, "damping: {viscous: 3}");
+  expect_in(steps, "{mu: 0.2, penalty: 50000, viscous: 1.5}");
+  expect_in(steps, "damping: none");
+  expect_in(steps, "{mu: 0.2, penalty: 50000}");
+  // Friction that has changed stays so.
+  const std::string rougher =
+      "*STEP\n*STATIC\n1,1\n*CHANGE FRICTION, INTERACTION=DRY\n*FRICTION\n0.4, 7E4\n*END STEP\n";
+  expect_in(part(law + rougher + in_time, "steps"), "{mu: 0.4, penalty: 70000, viscous: 1.5}");
+  // From the start where inertia is.
+  expect_in(part(law + in_time + press, "contact"), "damping: {viscous: 3}");
+  expect_in(part(law + in_time + press, "steps"), "damping: none");
+  EXPECT_EQ(message_of(law + in_time + press), "no error");
 }
 
 TEST(InpBetweenSteps, AClearanceIsThatOfItsPair) {

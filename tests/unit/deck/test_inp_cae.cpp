@@ -118,6 +118,31 @@ std::string cube(const std::string& conditions, const std::string& loads) {
          conditions + "*STEP\n*STATIC\n" + loads + "*END STEP\n";
 }
 
+TEST(InpCae, ForcesPerVolume) {
+  const DeckRun run =
+      run_deck(cube("*BOUNDARY\nBASE, 1, 3\n", "*DLOAD\nE, BX, 3.\nE, BZ, -2.\n1, BZ, 1.\n"));
+  EXPECT_LT((run.reaction_of("BASE") - Vec3(-3, 0, 1)).norm(), 1e-9);
+}
+
+/// A traction of 5 on the unit face at the top, whatever the length of its vector.
+TEST(InpCae, TractionsOfConstantDirection) {
+  const std::string face = "*SURFACE, NAME=S\nE, S2\n*BOUNDARY\nBASE, 1, 3\n";
+  const std::string load = "S, TRVEC, 5., 6., 0., -8.\n";
+  const DeckRun run = run_deck(cube(face, "*DSLOAD\n" + load + "*DSLOAD\nS, P, 1.\n"));
+  EXPECT_LT((run.reaction_of("BASE") - Vec3(-3, 0, 5)).norm(), 1e-9);
+  const std::string finite =
+      edited(cube(face, "*DSLOAD, FOLLOWER=NO, CONSTANT RESULTANT=YES\n" + load), "*STEP\n",
+             "*STEP, NLGEOM\n");
+  EXPECT_LT((run_deck(finite).reaction_of("BASE") - Vec3(-3, 0, 4)).norm(), 1e-9);
+  EXPECT_THAT(message_of(edited(finite, ", CONSTANT RESULTANT=YES", "")), HasSubstr("FOLLOWER=NO"));
+  EXPECT_THAT(message_of(edited(cube(face, "*DSLOAD\n" + load), "*STEP\n", "*STEP, NLGEOM\n")),
+              HasSubstr("TRVEC with NLGEOM needs FOLLOWER=NO"));
+  EXPECT_THAT(message_of(cube(face, "*DSLOAD, CONSTANT RESULTANT=YES\nS, P, 1.\n")),
+              HasSubstr("goes with TRVEC"));
+  EXPECT_THAT(message_of(cube(face, "*DSLOAD\nS, TRVEC, 1.\n")),
+              HasSubstr("expected the direction"));
+}
+
 /// Abaqus: each node of the set follows. The sum of their displacements would be that of one.
 TEST(InpEquation, ASetHasOneForEachOfItsNodes) {
   const DeckRun run = run_deck(

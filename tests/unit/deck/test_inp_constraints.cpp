@@ -256,7 +256,7 @@ TEST(InpConstraints, PretensionIsAForceAndThenLocked) {
       "NODE=901\n1., 0., 0.\n";
   const DeckRun run =
       run_deck(bar(4) + section + fixed + step("*BOUNDARY\nFINISH, 1, 3\n*CLOAD\n901, 1, 5.\n") +
-               step("*BOUNDARY, FIXED\n901, 1, 1\n*BOUNDARY\nFINISH, 1, 1, 0.04\n"));
+               step("*BOUNDARY, FIXED\n901, 1, 3\n*BOUNDARY\nFINISH, 1, 1, 0.04\n"));
   EXPECT_NEAR(run.reaction_of("FINISH").x(), 5, 1e-9);
   EXPECT_NEAR(run.reaction_of("START").x(), -5, 1e-9);
   // 4 long: shortened by F L / (E A)

@@ -49,8 +49,8 @@ TEST(InpParameters, MistakesAndWhatChangesTheAnswerStop) {
        "a.inp:17: *FRICTION: unknown parameter 'ANISOTROPIC'"},
       {"*SURFACE INTERACTION, NAME=I\n*FRICTION, TAUMAX=3.\n0.1\n" + end,
        "*FRICTION: unknown parameter 'TAUMAX'"},
-      {"*SURFACE INTERACTION, NAME=I\n*SURFACE BEHAVIOR, NO SEPARATION\n" + end,
-       "*SURFACEBEHAVIOR: unknown parameter 'NOSEPARATION'"},
+      {"*SURFACE INTERACTION, NAME=I\n*SURFACE BEHAVIOR, NO SEPERATION\n" + end,
+       "*SURFACEBEHAVIOR: unknown parameter 'NOSEPERATION'"},
       {in_step("*BOUNDARY, TYPE=VELOCITY\nTOP, 1, 1, 1.\n"),
        "*BOUNDARY: TYPE=VELOCITY is not supported: expected TYPE=DISPLACEMENT"},
       {in_step("*DLOAD, FOLOWER=NO\nE, P1, 1.\n"), "did you mean 'FOLLOWER'?"},
@@ -60,7 +60,6 @@ TEST(InpParameters, MistakesAndWhatChangesTheAnswerStop) {
        "*ELASTIC: unknown parameter 'DEPENDENCIES'"},
       {"*MATERIAL, NAME=A\n*PLASTIC, RATE=1.\n1., 0.\n" + end, "unknown parameter 'RATE'"},
       {"*MATERIAL, NAME=A\n*EXPANSION, USER\n" + end, "*EXPANSION: unknown parameter 'USER'"},
-      {steel + "*STEP\n*STATIC, STABILIZE\n*END STEP\n", "*STATIC: unknown parameter 'STABILIZE'"},
       {"*TIE, NAME=T, CONSTRAINT RATIO=0.5\nA, B\n" + end,
        "*TIE: unknown parameter 'CONSTRAINTRATIO'"},
       {"*COUPLING, REF NODE=1, SURFACE=S, CONSTRAINT NAME=C, INFLUENCE RADIUS=2.\n*KINEMATIC\n" +
@@ -135,6 +134,43 @@ TEST(InpParameters, NumbersOfStepsAndAmplitudes) {
                                   in_step("*CLOAD, AMPLITUDE=A\nTOP, 1, 1.\n"));
   EXPECT_THAT(to_yaml(deck.root),
               HasSubstr("    - [0, 2]\n    - [0.25, 2]\n    - [0.75, 3]\n    - [1, 3]\n"));
+}
+
+// Abaqus: x^3 (10 - 15 x + 6 x^2) between two points, level at both.
+TEST(InpParameters, AmplitudesThatAreNoTables) {
+  const auto written = [](const std::string& amplitude) {
+    return to_yaml(
+        deck_with("*AMPLITUDE, NAME=A, " + amplitude + in_step("*CLOAD, AMPLITUDE=A\nTOP, 1, 1.\n"))
+            .root);
+  };
+  const std::string smooth = written("DEFINITION=SMOOTH STEP\n0., 0., 0.5, 2., 1., 2.\n");
+  EXPECT_THAT(smooth, HasSubstr("    - [0, 0]\n"));
+  EXPECT_THAT(smooth, HasSubstr("    - [0.125, 0.20703125]\n"));
+  EXPECT_THAT(smooth, HasSubstr("    - [0.25, 1]\n"));
+  EXPECT_THAT(smooth, HasSubstr("    - [0.5, 2]\n    - [1, 2]\n"));
+  EXPECT_THAT(written("DEFINITION=EQUALLY SPACED, FIXED INTERVAL=0.25, BEGIN=0.5\n1., 3., 2.\n"),
+              HasSubstr("    - [0, 1]\n    - [0.5, 1]\n    - [0.75, 3]\n    - [1, 2]\n"));
+  const auto refused = [&](const std::string& amplitude) {
+    try {
+      (void)written(amplitude);
+    } catch (const core::InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  EXPECT_THAT(refused("DEFINITION=PERIODIC\n1, 2., 0., 1.\n"),
+              HasSubstr("DEFINITION=PERIODIC is not supported"));
+  EXPECT_THAT(refused("DEFINITION=EQUALLY SPACED\n1., 3.\n"), HasSubstr("FIXED INTERVAL"));
+  EXPECT_THAT(refused("VALUE=ABSOLUTE\n0., 0., 1., 1.\n"),
+              HasSubstr("VALUE=ABSOLUTE is not supported"));
+}
+
+TEST(InpParameters, ViscousForcesOfStabilizeAreToldOf) {
+  const TranslatedDeck deck =
+      deck_with(steel + fixed + "*STEP\n*STATIC, STABILIZE=0.0002, ALLSDTOL=0\n*END STEP\n");
+  EXPECT_TRUE(std::ranges::any_of(deck.notes, [](const std::string& note) {
+    return note.find("without the viscous forces of STABILIZE") != std::string::npos;
+  }));
 }
 
 TEST(InpParameters, BoundsOfFrequenciesAreListed) {

@@ -12,14 +12,17 @@ namespace {
 
 using ::testing::HasSubstr;
 
-Description metal_deck(const std::string& plastic) {
+TranslatedDeck translated_metal(const std::string& plastic) {
   const std::string text =
       "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 1, 1, 0\n4, 0, 1, 0\n5, 0, 0, 1\n6, 1, 0, 1\n7, 1, 1, 1\n"
       "8, 0, 1, 1\n*ELEMENT, TYPE=C3D8, ELSET=E\n1, 1, 2, 3, 4, 5, 6, 7, 8\n*MATERIAL, NAME=M\n"
       "*ELASTIC\n200000., 0.3\n" +
       plastic +
       "*SOLID SECTION, ELSET=E, MATERIAL=M\n*STEP\n*STATIC\n*BOUNDARY\n1, 1, 3\n*END STEP\n";
-  return parse_model(translate_deck(text, "a.inp").root, "a.inp");
+  return translate_deck(text, "a.inp");
+}
+Description metal_deck(const std::string& plastic) {
+  return parse_model(translated_metal(plastic).root, "a.inp");
 }
 material::J2Plasticity metal(const std::string& plastic) {
   return std::get<material::J2Plasticity>(metal_deck(plastic).materials.at(0).law.value);
@@ -33,24 +36,62 @@ std::string refused_metal(const std::string& plastic) {
   return "";
 }
 
-TEST(InpPlastic, CombinedHardeningIsATableBesideAModulus) {
+/// Two points at one temperature.
+const core::Table two_points{{0, 0}, {800, 0.1}};
+
+TEST(InpPlastic, CombinedHardeningIsATableBesideACurve) {
   const material::J2Plasticity both = metal(
       "*PLASTIC, HARDENING=COMBINED\n800., 0.\n1600., 0.1\n"
       "*CYCLIC HARDENING\n500., 0.\n600., 0.02\n650., 0.1\n");
-  EXPECT_EQ(both.kinematic, 8000);
+  EXPECT_EQ(both.kinematic_over.at(0).points, two_points);
   EXPECT_EQ(both.hardening, (core::Table{{500, 0}, {600, 0.02}, {650, 0.1}}));
   EXPECT_EQ(both.yield, 0);
   const material::J2Plasticity steady =
       metal("*PLASTIC, HARDENING=COMBINED\n800., 0.\n1600., 0.1\n*CYCLIC HARDENING\n500., 0.\n");
   EXPECT_EQ(steady.yield, 500);
-  EXPECT_EQ(steady.kinematic, 8000);
+  EXPECT_EQ(steady.kinematic_over.at(0).points, two_points);
   for (const char* const kind : {"COMBINED", "KINEMATIC"}) {
     const material::J2Plasticity moved =
         metal(std::string("*PLASTIC, HARDENING=") + kind + "\n800., 0.\n1600., 0.1\n");
     EXPECT_EQ(moved.yield, 800);
-    EXPECT_EQ(moved.kinematic, 8000);
+    EXPECT_EQ(moved.kinematic, 0);
+    EXPECT_EQ(moved.kinematic_over.at(0).points, two_points);
     EXPECT_TRUE(moved.hardening.empty());
   }
+}
+
+// Two points end at the second one, at one temperature as at several, as in CalculiX; Abaqus' slope
+// goes on, which is said by a second point where nothing comes.
+TEST(InpPlastic, TwoPointsOfKinematicHardeningAreACurveAtAnyTemperature) {
+  const auto points = [](const std::string& plastic, std::size_t curve) {
+    return metal("*PLASTIC, HARDENING=KINEMATIC\n" + plastic +
+                 "*INITIAL CONDITIONS, TYPE=TEMPERATURE\n1, 20.\n")
+        .kinematic_over.at(curve)
+        .points;
+  };
+  EXPECT_EQ(points("800., 0.\n1600., 0.1\n", 0), two_points);
+  const std::string warm = "800., 0., 0.\n1600., 0.1, 0.\n700., 0., 90.\n1400., 0.1, 90.\n";
+  EXPECT_EQ(points(warm, 0), two_points);
+  EXPECT_EQ(points(warm, 1), (core::Table{{0, 0}, {700, 0.1}}));
+  const material::J2Plasticity far =
+      metal("*PLASTIC, HARDENING=KINEMATIC\n800., 0.\n1.6E6, 200.\n");
+  EXPECT_EQ(far.kinematic, 7996);
+  EXPECT_TRUE(far.kinematic_over.empty());
+  const auto notes = [](const std::string& plastic) {
+    std::size_t found = 0;
+    const TranslatedDeck deck = translated_metal("*PLASTIC, HARDENING=KINEMATIC\n" + plastic);
+    for (const std::string& note : deck.notes)
+      found += note.find("two points are a slope") != std::string::npos;
+    return found;
+  };
+  EXPECT_EQ(notes("800., 0.\n1600., 0.1\n"), 1U);
+  EXPECT_EQ(notes("800., 0.\n1600., 0.1\n1700., 0.2\n"), 0U);
+  EXPECT_EQ(notes("800., 0.\n1.6E6, 200.\n"), 0U);
+}
+
+TEST(InpPlastic, AScaleIsOneOfTheStresses) {
+  EXPECT_EQ(metal("*PLASTIC, SCALE=1.5\n800., 0.\n1000., 0.1\n").hardening,
+            (core::Table{{1200, 0}, {1500, 0.1}}));
 }
 
 // As CalculiX: with a yield stress of 0 the answers are those of creep alone.

@@ -198,7 +198,7 @@ TEST(InpTranslate, WhatIsNotUnderstoodStopsWithItsLine) {
       {"direction", blocks + steel + "*BOUNDARY\nBASE, 11\n" + step,
        "cubes.inp:40: expected directions 1 to 6, found 11 to 11"},
       {"load", blocks + steel + "*STEP\n*STATIC\n*DLOAD\nUP, NEWTON, 1.\n*END STEP\n",
-       "load 'NEWTON' is not supported: P1 to P6, EDNOR1 to EDNOR4, GRAV or CENTRIF"},
+       "load 'NEWTON' is not supported: P1 to P6, EDNOR1 to EDNOR4, GRAV, CENTRIF, BX, BY or BZ"},
       {"temperature", blocks + "*MATERIAL, NAME=A\n*ELASTIC\n1., .3, 20.\n2., .3, 100.\n",
        "cubes.inp:33: *ELASTIC: depends on the temperature, which is given nowhere (*INITIAL "
        "CONDITIONS, *TEMPERATURE)"},

@@ -56,6 +56,33 @@ TEST(PairChanges, StayFromStepToStep) {
   EXPECT_EQ(now.pairs[0].definition.friction->as<contact::Coulomb>()->mu, 0.1);
 }
 
+TEST(PairChanges, DampingComesAndGoes) {
+  // Where it does not act a step needs no duration.
+  const Built b = built("normal: {penalty: 500, damping: {viscous: 3}}",
+                        ", contact: [{pair: floor, damping: none}]",
+                        ", duration: 2, contact: [{pair: floor, damping: {viscous: 4}}]");
+  model::Model now = b.model;
+  EXPECT_EQ(contact::damper(*now.pairs[0].definition.damping), 3);
+  model::change_pairs(b.model, 0, now);
+  EXPECT_FALSE(now.pairs[0].definition.damping);
+  model::change_pairs(b.model, 1, now);
+  EXPECT_EQ(contact::damper(*now.pairs[0].definition.damping), 4);
+  // The other laws of the pair stay.
+  EXPECT_EQ(now.pairs[0].definition.normal.as<contact::NormalPenalty>()->stiffness, 500);
+  EXPECT_NE(refusal("normal: {penalty: 500, damping: {viscous: 3}}", "",
+                    ", contact: [{pair: floor, damping: none}]")
+                .find("step 'one' has none"),
+            std::string::npos);
+}
+
+// Mortar by a penalty may be damped from a step on; its other laws stay.
+TEST(PairChanges, DampingOfMortar) {
+  const Built b = built("normal: {penalty: 500}, sampling: mortar", "",
+                        ", duration: 2, contact: [{pair: floor, damping: {viscous: 4}}]");
+  ASSERT_EQ(b.model.pair_changes.size(), 1u);
+  EXPECT_TRUE(b.model.pair_changes[0].damping);
+}
+
 TEST(PairChanges, AreRefusedWithTheReason) {
   const std::string plain = "normal: {penalty: 500}";
   const auto expect = [&](const std::string& pair, const std::string& change,
@@ -76,9 +103,23 @@ TEST(PairChanges, AreRefusedWithTheReason) {
          "pair: floor, friction: {coulomb: {mu: 0.1, penalty: 200}}", "do not slide");
   expect("normal: {penalty: 500, damping: {restitution: 0.5}}",
          "pair: floor, normal: {penalty: 5, damping: {restitution: 0.5}}",
-         "damping stays the same");
+         "by the key `damping` of the change");
+  expect(plain, "pair: floor, damping: {restitution: 0.5}", "unknown key 'restitution'");
+  expect(plain, "pair: floor, damping: {viscous: 2}", "needs the duration of every step");
   expect(plain, "pair: floor, active: false}, {pair: floor, active: true",
          "changes twice in this step");
+}
+
+TEST(PairChanges, WhatCannotBeDampedFromTheStartCannotLater) {
+  const auto with = [](const std::string& pair) {
+    return refusal(pair, "", ", duration: 1, contact: [{pair: floor, damping: {viscous: 2}}]");
+  };
+  EXPECT_NE(with("normal: {penalty: 500, separation: no_separation}")
+                .find("points that are held do not part"),
+            std::string::npos);
+  EXPECT_NE(with("normal: {penalty: 500}, enforcement: lagrange_multiplier, sampling: nodes")
+                .find("cannot change"),
+            std::string::npos);
 }
 
 TEST(PairChanges, DoNotGoWithExplicitSteps) {

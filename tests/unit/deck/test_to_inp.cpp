@@ -255,6 +255,7 @@ TEST(ToInp, MaterialsGoThereAndBack) {
        "elastoplastic: {E: 1000, nu: 0.25, yield: 3, kinematic: 20}",
        "elastoplastic: {E: [[0, 1000], [100, 800]], nu: 0.25, hardening: [[3, 0, 0], [4, 0.1, 0], "
        "[2, 0, 100]], kinematic: 20}",
+       "elastoplastic: {E: 1000, nu: 0.25, yield: 3, kinematic: [[0, 0], [1, 0.125]]}",
        "elastoplastic: {E: 1000, nu: 0.25, yield: 3, kinematic: [[0, 0], [1, 0.125], [1.5, 0.25]]}",
        "elastoplastic: {E: 1000, nu: 0.25, hardening: [[3, 0, 0], [2, 0, 100]], kinematic: [[0, 0, "
        "0], [1, 0.5, 0], [0, 0, 100], [2, 0.5, 100]]}",
@@ -419,6 +420,23 @@ Contact pair_again(const std::string& keys, std::string& text) {
   return parse_model(translate_deck(text, "model.inp").root, "model.inp").contact.at(0);
 }
 
+// What CalculiX passes over is said.
+TEST(ToInp, AClearanceOfNodesIsLostInCalculix) {
+  const auto lost = [](const std::string& sampling) {
+    const std::string text =
+        edited(blocks, "normal: {penalty: 1e4}, friction: {coulomb: {mu: 0.2, penalty: 5e3}}",
+               "normal: {penalty: 1e4}, initial: {clearance: -0.01}, sampling: " + sampling);
+    const Description d = parse_model(text, "model.yaml");
+    const WrittenDeck deck = write_deck(d, build_any(d, load_mesh(d)));
+    std::size_t found = 0;
+    for (const std::string& note : deck.notes)
+      found += note.find("*CLEARANCE") != std::string::npos;
+    return found;
+  };
+  EXPECT_EQ(lost("nodes"), 1U);
+  EXPECT_EQ(lost("{gauss: 2}"), 0U);
+}
+
 TEST(ToInp, LawsOfContactGoThereAndBack) {
   std::string text;
   Contact pair = pair_again(
@@ -442,6 +460,9 @@ TEST(ToInp, LawsOfContactGoThereAndBack) {
   EXPECT_THAT(text, HasSubstr("LINEAR\n10000, 2, 0.01\n"));
   EXPECT_THAT(text, HasSubstr("*SURFACE, NAME=high.bottom_nodes, TYPE=NODE\nhigh.bottom,\n"));
   EXPECT_EQ(pair.area_by, AreaWord::around);
+  pair = pair_again("sampling: {gauss: 2}, normal: {}", text);
+  EXPECT_THAT(text, HasSubstr("*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=HARD\n"));
+  EXPECT_TRUE(pair.normal.law.automatic);
   pair = pair_again("sampling: mortar, enforcement: lagrange_multiplier", text);
   EXPECT_EQ(pair.enforcement.value.kind, EnforcementWord::lagrange_multiplier);
   pair = pair_again("sampling: mortar, normal: {penalty: 1e4}", text);
@@ -476,6 +497,51 @@ steps: [{name: s, increments: 4, duration: 2, dynamics: {damping: {mass: 0.3}, )
               HasSubstr("an input file has nodes of first-order facets"));
 }
 
+TEST(ToInp, PairsBesideContactOfAllGoThereAndBack) {
+  const std::string text = R"(osculate: 1
+mesh: {generate: {a: {box: {x: [0, 1], y: [0, 1], z: [0, 1], elements: [1, 1, 1]}}, b: {box: {x: [0, 1], y: [0, 1], z: [1, 2], elements: [1, 1, 1]}}, c: {box: {x: [0, 1], y: [0, 1], z: [2, 3], elements: [1, 1, 1]}}}}
+materials: {m: {linear_elastic: {E: 1000, nu: 0.25}}}
+sections: [{on: a, material: m, element: solid}, {on: b, material: m, element: solid}, {on: c, material: m, element: solid}]
+contact:
+  all: {normal: {penalty: 1e4}, exclude_surfaces: [[a.left, b.right]]}
+  pairs: [{name: p, master: a.top, slave: b.bottom, normal: {penalty: 2e4}}]
+steps: [{name: s, increments: 1, prescribe: [{on: a.bottom, uz: 0}]}]
+)";
+  const std::string deck = written(text);
+  EXPECT_THAT(deck, HasSubstr("*CONTACT EXCLUSIONS\n"));
+  const Description d = parse_model(translate_deck(deck, "model.inp").root, "model.inp");
+  ASSERT_EQ(d.contact.size(), 2U);
+  EXPECT_TRUE(d.contact[1].all);
+  EXPECT_EQ(contact::penalty_of(d.contact[0].normal.law.law), 2e4);
+  EXPECT_EQ(contact::penalty_of(d.contact[1].normal.law.law), 1e4);
+  EXPECT_EQ(d.contact[1].exclude_surfaces.size(), 1U);
+}
+
+TEST(ToInp, DampingThatComesAndGoesGoesThereAndBack) {
+  const auto with = [](const std::string& first, const std::string& second) {
+    return R"(osculate: 1
+mesh: {generate: {a: {box: {x: [0, 1], y: [0, 1], z: [0, 1], elements: [1, 1, 1]}}, b: {box: {x: [0, 1], y: [0, 1], z: [1, 2], elements: [1, 1, 1]}}}}
+materials: {m: {linear_elastic: {E: 1000, nu: 0.25, density: 2}}}
+sections: [{on: a, material: m, element: solid}, {on: b, material: m, element: solid}]
+contact: [{name: c, master: a.top, slave: b.bottom, normal: {penalty: 1e4}}]
+steps:
+  - {name: s, increments: 1, duration: 1, prescribe: [{on: a.bottom, uz: 0}]}
+  - {name: t, increments: 4, duration: 2, dynamics: {}, contact: [{pair: c, damping: )" +
+           first + R"(}]}
+  - {name: u, increments: 1, duration: 1, contact: [{pair: c, damping: )" +
+           second + "}]}\n";
+  };
+  const std::string deck = written(with("{viscous: 4}", "none"));
+  EXPECT_THAT(deck, HasSubstr("*CONTACT DAMPING\n4\n"));
+  const Description d = parse_model(translate_deck(deck, "model.inp").root, "model.inp");
+  EXPECT_FALSE(d.contact.at(0).normal.damping);
+  EXPECT_EQ(contact::damper((*d.steps.at(1).contact.at(0).damping)->law), 4);
+  EXPECT_FALSE(d.steps.at(2).contact.at(0).damping->has_value());
+  for (const auto& [first, second] :
+       {std::pair{"{viscous: 4}", "{viscous: 4}"}, {"{viscous: 4}", "{viscous: 5}"}})
+    EXPECT_THAT(refusal_of(with(first, second)), HasSubstr("in all of them alike"));
+}
+
 /// `blocks` with durations in all steps, and another edit.
 std::string timed_refusal(const std::string& from, const std::string& to) {
   return refusal_of(edited(edited(blocks, from, to), "  - name: free\n    increments: 1",
@@ -485,7 +551,7 @@ std::string timed_refusal(const std::string& from, const std::string& to) {
 TEST(ToInp, WhatIsDampedInStepsWithoutInertiaIsRefused) {
   EXPECT_THAT(
       timed_refusal("normal: {penalty: 1e4}", "normal: {penalty: 1e4, damping: {viscous: 4}}"),
-      HasSubstr("acts in steps with `dynamics` alone"));
+      HasSubstr("acts in steps with `dynamics`, in all of them alike"));
   EXPECT_THAT(timed_refusal("friction: {coulomb: {mu: 0.2, penalty: 5e3}}",
                             "friction: {viscous: {coefficient: 2, penalty: 5e3}}"),
               HasSubstr("acts in steps with `dynamics` alone"));

@@ -58,7 +58,9 @@ void add_side(const Deck& deck, const Line& line, RawMesh& mesh) {
   Fields fields(deck, line);
   const std::string elements = name_of(fields.next().value_or(""));
   const std::string load = capitals(name_of(fields.next().value_or("")));
-  if (load == "GRAV" || load == "CENTRIF") {
+  const bool of_bodies =
+      load == "GRAV" || load == "CENTRIF" || load == "BX" || load == "BY" || load == "BZ";
+  if (of_bodies) {
     if (elements.empty()) return add_every_element(line.at, mesh);
     add_element(elements, line.at, mesh);
   }
