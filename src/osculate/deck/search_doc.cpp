@@ -40,6 +40,8 @@ constexpr std::array<Synonym, 43> synonyms{{
     {"heat conduction", no},
     {"thermal temperature cte",
      "materials.NAME.expansion, steps.temperature, initial_temperature (no heat flow)"},
+    {"hybrid volumetric-locking incompressible c3d20h c3d10h cpe8h mean-dilatation",
+     "sections.formulation: bbar"},
     {"hourglass reduced-integration c3d8r c3d20r", "sections.formulation: reduced"},
     {"shell membrane beam truss spring dashpot", no},
     {"hinge joint connector", no},

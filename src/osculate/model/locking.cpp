@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "osculate/model/bulk.hpp"
 #include "osculate/model/material_memory.hpp"
@@ -21,6 +22,28 @@ solid::Section<Dim> with(const solid::Section<Dim>& section, solid::Formulation 
   solid::Section<Dim> other = section;
   other.formulation = formulation;
   return solid::unsupported(other, type).empty() ? other : section;
+}
+
+/// The section of cells of a type, and what it is compared with.
+template <int Dim>
+struct Compared {
+  solid::Section<Dim> full, enhanced, bbar;
+  bool any;  ///< these differ
+};
+template <int Dim>
+Compared<Dim> compared(const BasicBulkSection<Dim>& section, cell::CellType type, bool flows) {
+  using solid::Formulation;
+  // Elsewhere volume changes are those of bending, as they should be.
+  constexpr double nearly_incompressible = 0.45;
+  const solid::Section<Dim> full = section_on(section, type);
+  const bool keeps_volume = flows || poisson_of(full.law) > nearly_incompressible;
+  Compared<Dim> out{full, full, full, false};
+  if (full.formulation != Formulation::full) return out;
+  if (!flows) out.enhanced = with(full, Formulation::enhanced, type);
+  if (keeps_volume) out.bbar = with(full, Formulation::bbar, type);
+  out.any = cell::info(type).order == 2 ? out.bbar.formulation != full.formulation
+                                        : solid::volume_terms<Dim>(type) > 0;
+  return out;
 }
 
 /// Energies of one wedge: all of it, what of it is of the shear between its top and its bottom and
@@ -102,29 +125,29 @@ void measure_locking(const BasicModel<Dim>& model, const BasicState<Dim>& state,
                      std::vector<Locking>& found) {
   using Section = solid::Section<Dim>;
   using solid::Formulation;
-  constexpr cell::CellType wanted = Dim == 2 ? cell::CellType::quad4 : cell::CellType::hex8;
+  using Types = std::map<cell::CellType, Compared<Dim>>;
   found.resize(model.sections.size());
   CellMemory memory;
   for (std::size_t s = 0; s < model.sections.size(); ++s) {
     const BasicBulkSection<Dim>& section = model.sections[s];
-    const Section& full = section.section;
+    constexpr double visible = 1e-6;
     Locking& sum = found[s];
     sum.section = section.name;
-    sum.flows = !material::memory_of(full.law).empty();
-    // Elsewhere volume changes are those of bending, as they should be.
-    constexpr double nearly_incompressible = 0.45, visible = 1e-6;
-    const bool keeps_volume = sum.flows || poisson_of(full.law) > nearly_incompressible;
-    const Section enhanced = sum.flows ? full : with(full, Formulation::enhanced, wanted);
-    const Section bbar = keeps_volume ? with(full, Formulation::bbar, wanted) : full;
+    sum.flows = !material::memory_of(section.section.law).empty();
+    Types types;
     for (std::size_t i = 0; i < section.cells.size(); ++i) {
       const CellNodes cell = cell_nodes(model.mesh, section.cells[i]);
       memory = memory_after(memory, section, i, cell.type);
-      const bool first = full.formulation == Formulation::full && cell.type == wanted;
-      if (memory.removed || (!first && cell.type != cell::CellType::wedge6)) continue;
+      const bool wedge = cell.type == cell::CellType::wedge6;
+      auto type = types.find(cell.type);
+      if (type == types.end())
+        type = types.emplace(cell.type, compared(section, cell.type, sum.flows)).first;
+      const auto& [full, enhanced, bbar, any] = type->second;
+      if (memory.removed || (!any && !wedge)) continue;
       const CellPlaces<Dim> at =
           places_of(model, section, cell.nodes, state.u, memory.of(state.memory));
       if (!sum.flows) add_wedge(full, cell.type, at, memory.of(state.memory), sum);
-      if (!first) continue;
+      if (!any) continue;
       const solid::Coordinates<Dim>&reference = at.reference, &moved = at.displacement;
       const auto energy_in = [&](const Section& of) {
         return solid::cell_energy(of, cell.type, reference, moved, memory.of(state.memory));
@@ -138,6 +161,7 @@ void measure_locking(const BasicModel<Dim>& model, const BasicState<Dim>& state,
       sum.energy += energy;
       sum.enhanced += sum.flows ? energy : std::min(energy_in(enhanced).stored, energy);
       sum.bbar += std::min(mean.stored + mean.dissipated, energy);
+      sum.second = sum.second || cell::info(cell.type).order == 2;
     }
   }
 }
@@ -147,18 +171,20 @@ std::string locks(const Locking& found) {
   const bool volume = found.bbar < found.enhanced;
   const double left = volume ? found.bbar : found.enhanced;
   return fmt::format(
-      "warning: section '{}': {:.2g} % of the {} is in strains that first-order cells "
-      "cannot avoid (they lock, {}): the body is too stiff; give it {}second-order cells{}, or "
-      "more cells",
+      "warning: section '{}': {:.2g} % of the {} is in strains that {} cells "
+      "cannot avoid (they lock, {}): the body is too stiff; give it {}{}or more cells",
       found.section, 100 * (1 - left / found.energy),
       found.flows ? "work done on cells that flow" : "strain energy",
+      found.second ? "plain" : "first-order",
       found.flows ? "since flow keeps the volume"
       : volume    ? "being nearly incompressible"
                   : "in bending",
       volume         ? "formulation: bbar, "
       : found.wedges ? ""
                      : "formulation: enhanced, ",
-      found.wedges && !volume ? " (S6 in place of S3)" : "");
+      found.second              ? ""
+      : found.wedges && !volume ? "second-order cells (S6 in place of S3), "
+                                : "second-order cells, ");
 }
 
 template void measure_locking(const BasicModel<2>&, const BasicState<2>&, std::vector<Locking>&);

@@ -104,6 +104,28 @@ TEST(Locking, ABlockThatHardlyChangesItsVolumeIsTooStiff) {
   EXPECT_THAT(warnings_of(block(", formulation: full", pressed, 0.3)), IsEmpty());
 }
 
+/// The same of second order.
+std::string second_order(std::string text, const std::string& type) {
+  text.replace(text.find("elements: [4, 4]"), 16, "elements: [4, 4], type: " + type);
+  return text;
+}
+
+TEST(Locking, PlainCellsOfSecondOrderThatHardlyChangeTheirVolumeLockToo) {
+  const std::string pressed =
+      "{on: b.bottom, ux: 0, uy: 0}, {on: b.left, ux: 0}, {on: punch, uy: -0.01}";
+  for (const char* const type : {"quad8", "tri6"}) {
+    SCOPED_TRACE(type);
+    for (const char* const formulation : {"", ", formulation: full"})
+      EXPECT_THAT(warnings_of(second_order(block(formulation, pressed, 0.499999), type)),
+                  ElementsAre(AllOf(HasSubstr("strains that plain cells"),
+                                    HasSubstr("give it formulation: bbar, or more cells"))));
+    EXPECT_THAT(warnings_of(second_order(block(", formulation: bbar", pressed, 0.499999), type)),
+                IsEmpty());
+    EXPECT_THAT(warnings_of(second_order(block(", formulation: full", pressed, 0.3), type)),
+                IsEmpty());
+  }
+}
+
 TEST(Locking, UniformCompressionDoesNotLock) {
   EXPECT_THAT(warnings_of(block(", formulation: full",
                                 "{on: b.bottom, uy: 0}, {on: b.left, ux: 0}, {on: punch, uy: "
