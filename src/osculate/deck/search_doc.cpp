@@ -20,7 +20,7 @@ struct Synonym {
 
 constexpr std::string_view no = "not available: see `osculate doc limits`";
 
-constexpr std::array<Synonym, 43> synonyms{{
+constexpr std::array<Synonym, 44> synonyms{{
     {"tie tied tied-contact glue bonded mesh-tie",
      "ties (docs/constraints.md), contact.normal.separation: tied"},
     {"plasticity plastic yielding mises-plasticity j2 metal",

@@ -19,16 +19,37 @@ struct BbarCell {
   using Vector = typename Sizes<Dim, N>::Vector;
   template <class T>
   using OfPoints = std::array<T, static_cast<std::size_t>(most)>;
-  std::size_t count = 0;
   OfPoints<Point<Dim, N>> point;
-  OfPoints<Terms> term;  ///< orthonormal: int p_i p_j dV = delta_ij
+  OfPoints<Terms> term;                                ///< orthonormal: int p_i p_j dV = delta_ij
+  std::size_t count = static_cast<std::size_t>(most);  ///< of points
+  [[nodiscard]] std::size_t size() const {
+    if constexpr (any)
+      return count;
+    else
+      return static_cast<std::size_t>(most);
+  }
 };
 
-/// Adds the lower triangle of a b^T.
+/// Adds factor a b^T, or the sum of it and its transposed, of which the lower triangle counts.
 template <class Vector, class Matrix>
 void add_product(double factor, const Vector& a, const Vector& b, Matrix& lower) {
-  const Eigen::Index n = a.size();
-  for (Eigen::Index j = 0; j < n; ++j) lower.col(j).tail(n - j) += factor * b[j] * a.tail(n - j);
+  for (Eigen::Index j = 0, n = a.size(); j < n; ++j) {
+    const double of_b = factor * b[j];
+    if constexpr (Vector::SizeAtCompileTime == Eigen::Dynamic)
+      lower.col(j).tail(n - j) += of_b * a.tail(n - j);
+    else
+      lower.col(j) += of_b * a;
+  }
+}
+template <class Vector, class Matrix>
+void add_both_products(double factor, const Vector& a, const Vector& b, Matrix& lower) {
+  for (Eigen::Index j = 0, n = a.size(); j < n; ++j) {
+    const double of_a = factor * a[j], of_b = factor * b[j];
+    if constexpr (Vector::SizeAtCompileTime == Eigen::Dynamic)
+      lower.col(j).tail(n - j) += of_b * a.tail(n - j) + of_a * b.tail(n - j);
+    else
+      lower.col(j) += of_b * a + of_a * b;
+  }
 }
 
 /// Gram and Schmidt's orthonormal polynomials, from 1 and the coordinates less those of the middle.
@@ -36,7 +57,7 @@ template <int Dim, int N>
 void set_terms(const Rule<Dim>& rule, CellType type, const Coordinates<Dim>& reference,
                BbarCell<Dim, N>& c) {
   const Eigen::Index terms = volume_terms<Dim>(type);
-  for (std::size_t q = 0; q < c.count; ++q) {
+  for (std::size_t q = 0; q < c.size(); ++q) {
     c.term[q].setOnes(terms);
     if constexpr (BbarCell<Dim, N>::any) {
       if (terms == 1) continue;
@@ -48,17 +69,17 @@ void set_terms(const Rule<Dim>& rule, CellType type, const Coordinates<Dim>& ref
   }
   const auto product = [&](Eigen::Index i, Eigen::Index j) {
     double sum = 0;
-    for (std::size_t q = 0; q < c.count; ++q)
+    for (std::size_t q = 0; q < c.size(); ++q)
       sum += c.point[q].volume * c.term[q][i] * c.term[q][j];
     return sum;
   };
   for (Eigen::Index i = 0; i < terms; ++i) {
     for (Eigen::Index j = 0; j < i; ++j) {
       const double share = product(i, j);
-      for (std::size_t q = 0; q < c.count; ++q) c.term[q][i] -= share * c.term[q][j];
+      for (std::size_t q = 0; q < c.size(); ++q) c.term[q][i] -= share * c.term[q][j];
     }
     const double norm = std::sqrt(product(i, i));
-    for (std::size_t q = 0; q < c.count; ++q) c.term[q][i] /= norm;
+    for (std::size_t q = 0; q < c.size(); ++q) c.term[q][i] /= norm;
   }
 }
 
@@ -70,7 +91,7 @@ bool fill_cell(const Section<Dim>& section, CellType type, const Coordinates<Dim
   const typename Sizes<Dim, N>::Nodal x = reference, u = displacement;
   bool one_to_one = true;
   c.count = rule.weights.size();
-  for (std::size_t q = 0; q < c.count; ++q)
+  for (std::size_t q = 0; q < c.size(); ++q)
     one_to_one =
         fill_point<Dim, N>(section, rule.shape[q], rule.weights[q], x, u, c.point[q]) && one_to_one;
   set_terms<Dim, N>(rule, type, reference, c);
@@ -104,13 +125,13 @@ void average_volume_small(const Coordinates<Dim>& displacement, BbarCell<Dim, N>
   for (Eigen::Index i = 0; i < terms; ++i) {
     Vector& sum = mean[static_cast<std::size_t>(i)];
     sum.setZero(dofs);
-    for (std::size_t q = 0; q < c.count; ++q)
+    for (std::size_t q = 0; q < c.size(); ++q)
       sum += c.point[q].volume * c.term[q][i] * trace(c.point[q]);
   }
   Vector u(dofs);
   for (Eigen::Index k = 0; k < displacement.rows(); ++k)
     u.template segment<Dim>(Dim * k) = displacement.row(k);
-  for (std::size_t q = 0; q < c.count; ++q) {
+  for (std::size_t q = 0; q < c.size(); ++q) {
     Point<Dim, N>& p = c.point[q];
     Vector shift = -trace(p);
     for (Eigen::Index i = 0; i < terms; ++i)
@@ -142,33 +163,38 @@ bool average_volume(BbarCell<Dim, N>& c, VolumeRatios<Dim, N>& of) {
   typename BbarCell<Dim, N>::Terms growth;  // int (J - 1) p_i dV
   growth.setZero(terms);
   for (Eigen::Index i = 0; i < terms; ++i) of.slope[static_cast<std::size_t>(i)].setZero(dofs);
-  for (std::size_t q = 0; q < c.count; ++q) {
+  for (std::size_t q = 0; q < c.size(); ++q) {
     const Point<Dim, N>& p = c.point[q];
     log_j[q] = material::log_volume_ratio(p.strain);
-    growth += p.volume * std::expm1(log_j[q]) * c.term[q];
-    of.volume[q] = p.volume * std::exp(log_j[q]);
+    const double grown = p.volume * std::expm1(log_j[q]);
+    growth += grown * c.term[q];
+    of.volume[q] = p.volume + grown;
     of.log_j[q].setZero(dofs);
     add_force(p.b, inverse_stretch(p.strain), of.log_j[q]);
     for (Eigen::Index i = 0; i < terms; ++i)
       of.slope[static_cast<std::size_t>(i)] += of.volume[q] * c.term[q][i] * of.log_j[q];
   }
-  for (std::size_t q = 0; q < c.count; ++q) {
+  double log_theta = 0;
+  for (std::size_t q = 0; q < c.size(); ++q) {
     const double change = growth.dot(c.term[q]);
     if (!(change > -1)) return false;
+    if (q == 0 || terms > 1) log_theta = std::log1p(change);
     Point<Dim, N>& p = c.point[q];
-    const double log_m = 2.0 / 3 * (std::log1p(change) - log_j[q]), m = std::exp(log_m);
+    const double more = std::expm1(2.0 / 3 * (log_theta - log_j[q])), m = 1 + more;
+    const double root = std::sqrt(m);
     of.theta[q] = 1 + change;
     of.scale[q] = m;
-    of.log_m[q] = -2.0 / 3 * of.log_j[q];
+    of.log_m[q] = -of.log_j[q];
     for (Eigen::Index i = 0; i < terms; ++i)
-      of.log_m[q] += 2.0 / 3 * c.term[q][i] / of.theta[q] * of.slope[static_cast<std::size_t>(i)];
+      of.log_m[q] += c.term[q][i] / of.theta[q] * of.slope[static_cast<std::size_t>(i)];
+    of.log_m[q] *= 2.0 / 3;
     const auto half = half_unit<Vec<components<Dim>>>();
-    p.strain = (m * p.strain + std::expm1(log_m) * half).eval();
+    p.strain = (m * p.strain + more * half).eval();
     const auto half_stretch = (p.strain + half).eval();
     for (Eigen::Index s = 0; s < half.size(); ++s)
       p.b.row(s) = (m * p.b.row(s) + half_stretch[s] * of.log_m[q].transpose()).eval();
-    p.f *= std::sqrt(m);
-    if constexpr (Dim == 2) p.f33 *= std::sqrt(m);
+    p.f *= root;
+    if constexpr (Dim == 2) p.f33 *= root;
   }
   return true;
 }
@@ -215,19 +241,18 @@ void add_volume_curvature(const BbarCell<Dim, N>& c, const Stresses<Dim, N>& str
       square;  // of d(theta_i) d(theta_j)
   pull.setZero(terms);
   square.setZero(terms, terms);
-  for (std::size_t q = 0; q < c.count; ++q) {
+  for (std::size_t q = 0; q < c.size(); ++q) {
     const Point<Dim, N>& p = c.point[q];
     const double growth = stress[q].dot(p.strain + half_unit<Vec<components<Dim>>>());
     Vector work = -0.5 * growth * of.log_m[q];
     add_force(p.b, stress[q], work);
-    add_product(p.volume, work, of.log_m[q], lower);
-    add_product(p.volume, of.log_m[q], work, lower);
+    add_both_products(p.volume, work, of.log_m[q], lower);
     weight[q] = 2.0 / 3 * p.volume * growth;
     const typename Cell::Terms per = weight[q] / of.theta[q] * c.term[q];
     pull += per;
     square += per / of.theta[q] * c.term[q].transpose();
   }
-  for (std::size_t q = 0; q < c.count; ++q) {
+  for (std::size_t q = 0; q < c.size(); ++q) {
     const double share = of.volume[q] * pull.dot(c.term[q]);
     add_log_j_curvature<Dim, N>(c.point[q], of.scale[q], share - weight[q], lower);
     add_product(share, of.log_j[q], of.log_j[q], lower);
@@ -254,7 +279,7 @@ void evaluate_cell(const Section<Dim>& section, CellType type, const Coordinates
   CellSum<Dim, N> sum(section, reference.rows(), with_tangent);
   Stresses<Dim, N> stress;
   out.status = Status::material_failed;
-  for (std::size_t q = 0; q < c.count; ++q) {
+  for (std::size_t q = 0; q < c.size(); ++q) {
     const auto r = point_response(section, c.point[q].strain, memory.at(q));
     if (!r.ok) return;
     stress[q] = r.stress;
@@ -277,7 +302,7 @@ void see_cell(const Section<Dim>& section, CellType type, const Coordinates<Dim>
   else if (!average_volume<Dim, N>(c, of))
     return;
   out.status = Status::ok;
-  for (std::size_t q = 0; q < c.count; ++q) out.set(q, c.point[q]);
+  for (std::size_t q = 0; q < c.size(); ++q) out.set(q, c.point[q]);
 }
 
 }  // namespace
@@ -326,7 +351,7 @@ void add_bbar_stress_stiffness(const Section<Dim>& section, CellType type,
   (void)fill_cell<Dim, any>(section, type, reference, Coordinates<Dim>::Zero(nodes, Dim), c);
   (void)average_volume<Dim, any>(c, of);
   Stresses<Dim, any> of_points;
-  for (std::size_t q = 0; q < c.count; ++q) of_points[q] = stress.point[q].stress;
+  for (std::size_t q = 0; q < c.size(); ++q) of_points[q] = stress.point[q].stress;
   add_volume_curvature<Dim, any>(c, of_points, of, lower);
 }
 
