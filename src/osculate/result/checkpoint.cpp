@@ -185,7 +185,7 @@ void fields(Archive& a, JournalEntry& e) {
 
 namespace {
 
-constexpr int version = 12;
+constexpr int version = 13;
 
 template <class... T>
 std::string saved(const T&... values) {

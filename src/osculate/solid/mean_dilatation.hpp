@@ -16,7 +16,7 @@ namespace osculate::solid {
 /// Source     Simo, Taylor & Pister 1985; Simo & Taylor 1991
 /// Returns    out.status: inverted also where theta is not positive at a point
 /// Tested by  tests/unit/solid/test_derivatives.cpp, test_locking.cpp, test_volume_locking.cpp,
-///            test_mean_dilatation.cpp
+///            test_mean_dilatation.cpp, test_pressure.cpp, verification/nearly_incompressible
 template <int Dim>
 void evaluate_bbar(const Section<Dim>& section, cell::CellType type,
                    const Coordinates<Dim>& reference, const Coordinates<Dim>& displacement,
