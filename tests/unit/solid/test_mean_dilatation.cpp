@@ -33,9 +33,8 @@ TEST_P(MeanDilatation, OfAnAffineDisplacementIsThatOfPlainCells) {
   });
 }
 
-// A volume ratio that is linear is kept by cells of five and more nodes along with its gradient;
-// what they do not keep is the product of two coordinates.
-TEST_P(MeanDilatation, ShearedStrainsAreThoseOfPlainCells) {
+// A dilatation that is linear, as that of bending, is kept where there are linear terms.
+TEST_P(MeanDilatation, OfBendingIsThatOfPlainCellsWhereItIsLinear) {
   for_each_bbar(GetParam(), [](const CellCase& c) {
     if (c.finite()) return;
     const Eigen::MatrixXd x = regular(c);
