@@ -231,6 +231,7 @@ void build_sections(BuildContext<Dim>& c) {
     section.section = solid_section(c, s);
     section.cells = set.cells;
     section.material = s.material.value;
+    section.by_default = s.formulation.value == Formulation::automatic;
     check_orientation(c, s, section.section);
     if (s.element.value == SectionElement::solid_shell)
       (void)mesh::align_shells(m.mesh, section.cells);

@@ -14,18 +14,20 @@ using io::inp::Card;
 using io::inp::SetKind;
 
 /// C3D8 and CPE4 are fully integrated as in CalculiX; of the variants R is reduced integration, I
-/// are incompatible modes, H is for incompressible materials. C3D6 has two points.
+/// are incompatible modes, H is for incompressible materials, of second order with R, too. C3D6 has
+/// two points.
 const char* formulation_of(std::string_view type, const io::inp::ElementType& known) {
   using enum cell::CellType;
   const std::string_view letters = type.substr(known.name.size());
   const bool first = known.cell == quad4 || known.cell == hex8;
   const bool second = known.cell == quad8 || known.cell == hex20;
+  const bool hybrid = letters.find('H') != std::string_view::npos && !type.starts_with("CPS");
   if (type == io::inp::beam_brick) return "beam";
   if (known.cell == wedge6) return "reduced";
+  if (hybrid && cell::info(known.cell).order == 2) return "bbar";
   if (letters.find('R') != std::string_view::npos && (first || second)) return "reduced";
   if (letters.find('I') != std::string_view::npos && first) return "enhanced";
-  if (letters.find('H') != std::string_view::npos && first && !type.starts_with("CPS"))
-    return "bbar";
+  if (hybrid && first) return "bbar";
   return "full";
 }
 

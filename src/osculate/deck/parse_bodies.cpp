@@ -51,18 +51,21 @@ BoundKeys<Section> section_keys() {
           .such_as("finite");
   const Spec formulation =
       choice(
-          "How first-order quadrilaterals and hexahedra avoid locking; all other cells are plain "
-          "displacement elements, those of second order, on demand, of reduced integration.",
+          "How cells avoid locking. First-order triangles, tetrahedra and wedges are plain "
+          "displacement elements.",
           {word("auto", Formulation::automatic,
-                "enhanced; of neo_hooke, where enhanced strains are unstable in large compression, "
-                "and of " +
+                "first-order quadrilaterals and hexahedra enhanced, cells of second order full; of "
+                "neo_hooke, where enhanced strains are unstable in large compression, and of " +
                     remembering_materials() +
-                    ", where they hardly converge without hardening, bbar, in plane stress full"),
+                    ", where they hardly converge without hardening, both bbar but for triangles, "
+                    "tetrahedra and wedges, in plane stress full"),
            word("full", Formulation::full,
                 "plain displacement element, full integration: too stiff in bending and near nu = "
                 "0.5 (CalculiX' C3D8, Abaqus' CPS4; Abaqus' C3D8 is bbar)"),
            word("bbar", Formulation::bbar,
-                "averaged volume change, for nearly incompressible (Abaqus' CPE4, CAX4 and C3D8)"),
+                "averaged volume change, for nearly incompressible (Abaqus' CPE4, CAX4 and C3D8): "
+                "constant in quad4, hex8, tri6, tet10 and wedge15, linear in quad8, quad9, hex20 "
+                "and hex27 (Abaqus' elements whose names end in H)"),
            word("enhanced", Formulation::enhanced,
                 "enhanced strains, for bending and nearly incompressible (CalculiX' C3D8I, Abaqus' "
                 "CPS4I, CPE4I, CAX4I and C3D8I)"),

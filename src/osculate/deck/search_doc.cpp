@@ -20,7 +20,7 @@ struct Synonym {
 
 constexpr std::string_view no = "not available: see `osculate doc limits`";
 
-constexpr std::array<Synonym, 43> synonyms{{
+constexpr std::array<Synonym, 44> synonyms{{
     {"tie tied tied-contact glue bonded mesh-tie",
      "ties (docs/constraints.md), contact.normal.separation: tied"},
     {"plasticity plastic yielding mises-plasticity j2 metal",
@@ -40,6 +40,8 @@ constexpr std::array<Synonym, 43> synonyms{{
     {"heat conduction", no},
     {"thermal temperature cte",
      "materials.NAME.expansion, steps.temperature, initial_temperature (no heat flow)"},
+    {"hybrid volumetric-locking incompressible c3d20h c3d10h cpe8h mean-dilatation",
+     "sections.formulation: bbar"},
     {"hourglass reduced-integration c3d8r c3d20r", "sections.formulation: reduced"},
     {"shell membrane beam truss spring dashpot", no},
     {"hinge joint connector", no},

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <set>
 
 #include "osculate/core/text.hpp"
 #include "osculate/deck/to_inp_parts.hpp"
@@ -400,13 +401,15 @@ template class InpMesh<3>;
 
 namespace {
 
-template <int Dim>
-bool has_full_wedges(const model::BasicModel<Dim>& m) {
+/// Whether there are cells of a formulation and a type that are wanted.
+template <int Dim, class Wanted>
+bool has_cells(const model::BasicModel<Dim>& m, const Wanted& wanted) {
   return std::ranges::any_of(m.sections, [&](const auto& section) {
-    return std::ranges::any_of(section.cells, [&](const mesh::CellRef& ref) {
-      const cell::CellType type = m.mesh.blocks[static_cast<std::size_t>(ref.block)].type;
-      return type == cell::CellType::wedge6 &&
-             model::section_on(section, type).formulation == solid::Formulation::full;
+    std::set<cell::CellType> types;
+    for (const mesh::CellRef& ref : section.cells)
+      types.insert(m.mesh.blocks[static_cast<std::size_t>(ref.block)].type);
+    return std::ranges::any_of(types, [&](cell::CellType type) {
+      return wanted(model::section_on(section, type).formulation, type);
     });
   });
 }
@@ -428,13 +431,13 @@ WrittenDeck deck_of(const Description& d, const BasicBuilt<Dim>& built) {
       asked ? "tolerances and other results than frd and dat (solver, output) are left out"
             : "tolerances and results (solver, output) are left out: displacements, forces and "
               "stresses are asked for");
-  const bool foreign = std::ranges::any_of(built.model.sections, [](const auto& s) {
-    return s.section.formulation == solid::Formulation::bbar ||
-           (Dim == 2 && s.section.formulation == solid::Formulation::enhanced);
-  });
-  if (foreign)
+  if (has_cells(built.model, [](solid::Formulation formulation, cell::CellType) {
+        return formulation == solid::Formulation::bbar ||
+               (Dim == 2 && formulation == solid::Formulation::enhanced);
+      }))
     deck.notes.push_back(
-        "CalculiX has no elements with mean dilatation (C3D8H, CPE4H, ...) and no plane ones with "
+        "CalculiX has no elements with mean dilatation (C3D8H, C3D20H, CPE4H, ...) and no plane "
+        "ones with "
         "enhanced strains (CPE4I, ...): Osculate and Abaqus read them; `formulation: full` is "
         "CPE4");
   for (const auto& pair : built.model.pairs)
@@ -445,7 +448,9 @@ WrittenDeck deck_of(const Description& d, const BasicBuilt<Dim>& built) {
           "of "
           "the mesh; with Gauss points (`sampling`) it is SURFACE TO SURFACE, which knows it",
           pair.name));
-  if (has_full_wedges(built.model))
+  if (has_cells(built.model, [](solid::Formulation formulation, cell::CellType type) {
+        return type == cell::CellType::wedge6 && formulation == solid::Formulation::full;
+      }))
     deck.notes.push_back(
         "C3D6 has two points here as in CalculiX: `formulation: reduced` of wedge6 cells; those of "
         "this model have more of them");

@@ -59,10 +59,20 @@ CellPlaces<Dim> places_of(const BasicModel<Dim>& model, const BasicBulkSection<D
   return out;
 }
 
+namespace {
+/// Whether cells of a type have the formulation of their section (docs/decisions/064).
+template <int Dim>
+bool has_formulation(const BasicBulkSection<Dim>& section, cell::CellType type) {
+  if (!solid::unsupported(section.section, type).empty()) return false;
+  if (!section.by_default || section.section.formulation != solid::Formulation::bbar) return true;
+  return cell::info(type).order == 1 || solid::volume_terms<Dim>(type) > 1;
+}
+}  // namespace
+
 template <int Dim>
 solid::Section<Dim> section_on(const BasicBulkSection<Dim>& section, cell::CellType type) {
   solid::Section<Dim> own = section.section;
-  if (!solid::unsupported(own, type).empty()) own.formulation = {};
+  if (!has_formulation(section, type)) own.formulation = {};
   return own;
 }
 
@@ -77,7 +87,7 @@ void evaluate_cell(const BasicModel<Dim>& model, const BasicBulkSection<Dim>& se
     solid::evaluate(own, cell.type, at.reference, at.displacement, with_tangent, out.result,
                     memory);
   };
-  if (solid::unsupported(section.section, cell.type).empty())
+  if (has_formulation(section, cell.type))
     evaluate(section.section);  // no copy of the law
   else
     evaluate(section_on(section, cell.type));

@@ -18,7 +18,8 @@ struct BasicBulkBlock {
   solid::ElementResult<Dim> result;
 };
 
-/// What a cell of a type has of its section: cells without the section's formulation are plain.
+/// What a cell of a type has of its section: cells without the section's formulation are plain,
+/// and, where nobody asked for it, those of second order whose volume ratio would be constant.
 template <int Dim>
 [[nodiscard]] solid::Section<Dim> section_on(const BasicBulkSection<Dim>& section,
                                              cell::CellType type);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "osculate/model/bulk.hpp"
 #include "osculate/model/material_memory.hpp"
@@ -21,6 +22,28 @@ solid::Section<Dim> with(const solid::Section<Dim>& section, solid::Formulation 
   solid::Section<Dim> other = section;
   other.formulation = formulation;
   return solid::unsupported(other, type).empty() ? other : section;
+}
+
+/// The section of cells of a type, and what it is compared with.
+template <int Dim>
+struct Compared {
+  solid::Section<Dim> full, enhanced, bbar;
+  bool any;  ///< these differ
+};
+template <int Dim>
+Compared<Dim> compared(const BasicBulkSection<Dim>& section, cell::CellType type, bool flows) {
+  using solid::Formulation;
+  // Elsewhere volume changes are those of bending, as they should be.
+  constexpr double nearly_incompressible = 0.45;
+  const solid::Section<Dim> full = section_on(section, type);
+  const bool keeps_volume = flows || poisson_of(full.law) > nearly_incompressible;
+  Compared<Dim> out{full, full, full, false};
+  if (full.formulation != Formulation::full) return out;
+  if (!flows) out.enhanced = with(full, Formulation::enhanced, type);
+  if (keeps_volume) out.bbar = with(full, Formulation::bbar, type);
+  out.any = cell::info(type).order == 2 ? out.bbar.formulation != full.formulation
+                                        : solid::volume_terms<Dim>(type) > 0;
+  return out;
 }
 
 /// Energies of one wedge: all of it, what of it is of the shear between its top and its bottom and
@@ -92,61 +115,53 @@ void add_wedge(const solid::Section<3>& section, cell::CellType type, const Cell
 void add_wedge(const solid::Section<2>&, cell::CellType, const CellPlaces<2>&,
                const material::Memory&, Locking&) {}
 
-/// Whether a cell of the section can lock.
-template <int Dim>
-bool can_lock(const solid::Section<Dim>& section, cell::CellType type) {
-  constexpr cell::CellType corners = Dim == 2 ? cell::CellType::quad4 : cell::CellType::hex8;
-  return (section.formulation == solid::Formulation::full && type == corners) ||
-         type == cell::CellType::wedge6;
-}
-
-/// The cells of a section that can lock: of(cell, memory, places).
+/// The cells of a section that can lock: of(compared, cell type, memory, places).
 template <int Dim, class Of>
-void for_each_first(const BasicModel<Dim>& model, const BasicState<Dim>& state, std::size_t s,
+void for_each_plain(const BasicModel<Dim>& model, const BasicState<Dim>& state, std::size_t s,
                     const Of& of) {
   const BasicBulkSection<Dim>& section = model.sections[s];
+  const bool flows = !material::memory_of(section.section.law).empty();
+  std::map<cell::CellType, Compared<Dim>> types;
   CellMemory memory;
   for (std::size_t i = 0; i < section.cells.size(); ++i) {
     const CellNodes cell = cell_nodes(model.mesh, section.cells[i]);
     memory = memory_after(memory, section, i, cell.type);
-    if (memory.removed || !can_lock(section.section, cell.type)) continue;
+    auto type = types.find(cell.type);
+    if (type == types.end())
+      type = types.emplace(cell.type, compared(section, cell.type, flows)).first;
+    const Compared<Dim>& as = type->second;
+    if (memory.removed || (!as.any && cell.type != cell::CellType::wedge6)) continue;
     const material::Memory remembered = memory.of(state.memory);
-    of(cell.type, remembered, places_of(model, section, cell.nodes, state.u, remembered));
+    of(as, cell.type, remembered, places_of(model, section, cell.nodes, state.u, remembered));
   }
 }
 
 /// The energies of one section in one state, but for the floor.
 template <int Dim>
 Locking locking_of(const BasicModel<Dim>& model, const BasicState<Dim>& state, std::size_t s) {
-  using solid::Formulation;
-  constexpr cell::CellType wanted = Dim == 2 ? cell::CellType::quad4 : cell::CellType::hex8;
-  const solid::Section<Dim>& full = model.sections[s].section;
   Locking sum;
-  sum.flows = !material::memory_of(full.law).empty();
-  // Elsewhere volume changes are those of bending, as they should be.
-  constexpr double nearly_incompressible = 0.45;
-  const bool keeps_volume = sum.flows || poisson_of(full.law) > nearly_incompressible;
-  const solid::Section<Dim> enhanced = with(full, Formulation::enhanced, wanted),
-                            bbar = with(full, Formulation::bbar, wanted);
-  for_each_first(
-      model, state, s,
-      [&](cell::CellType type, const material::Memory& memory, const CellPlaces<Dim>& at) {
-        if (type != wanted) {
-          if (!sum.flows) add_wedge(full, type, at, memory, sum);
-          return;
-        }
-        const auto energy_in = [&](const solid::Section<Dim>& of) {
-          return solid::cell_energy(of, type, at.reference, at.displacement, memory);
-        };
-        const solid::CellEnergy plain = energy_in(full),
-                                mean = keeps_volume ? energy_in(bbar) : plain;
-        if (sum.flows && !(mean.dissipated > mean.stored)) return;
-        const double energy = plain.stored + plain.dissipated;
-        if (!std::isfinite(energy)) return;
-        sum.energy += energy;
-        sum.enhanced += sum.flows ? energy : std::min(energy_in(enhanced).stored, energy);
-        sum.bbar += std::min(mean.stored + mean.dissipated, energy);
-      });
+  sum.flows = !material::memory_of(model.sections[s].section.law).empty();
+  for_each_plain(model, state, s,
+                 [&](const Compared<Dim>& as, cell::CellType type, const material::Memory& memory,
+                     const CellPlaces<Dim>& at) {
+                   if (!sum.flows) add_wedge(as.full, type, at, memory, sum);
+                   if (!as.any) return;
+                   const auto energy_in = [&](const solid::Section<Dim>& of) {
+                     return solid::cell_energy(of, type, at.reference, at.displacement, memory);
+                   };
+                   const solid::CellEnergy plain = energy_in(as.full),
+                                           mean = as.bbar.formulation == as.full.formulation
+                                                      ? plain
+                                                      : energy_in(as.bbar);
+                   if (sum.flows && !(mean.dissipated > mean.stored)) return;
+                   const double energy = plain.stored + plain.dissipated;
+                   if (!std::isfinite(energy)) return;
+                   const bool other = as.enhanced.formulation != as.full.formulation;
+                   sum.energy += energy;
+                   sum.enhanced += other ? std::min(energy_in(as.enhanced).stored, energy) : energy;
+                   sum.bbar += std::min(mean.stored + mean.dissipated, energy);
+                   sum.second = sum.second || cell::info(type).order == 2;
+                 });
   return sum;
 }
 
@@ -155,9 +170,10 @@ template <int Dim>
 double floor_of(const BasicModel<Dim>& model, const BasicState<Dim>& state, std::size_t s) {
   constexpr double visible = 1e-6;
   double floor = 0;
-  for_each_first(model, state, s,
-                 [&](cell::CellType type, const material::Memory&, const CellPlaces<Dim>& at) {
-                   floor += solid::strain_energy(model.sections[s].section, type, at.reference,
+  for_each_plain(model, state, s,
+                 [&](const Compared<Dim>& as, cell::CellType type, const material::Memory&,
+                     const CellPlaces<Dim>& at) {
+                   floor += solid::strain_energy(as.full, type, at.reference,
                                                  solid::Coordinates<Dim>(visible * at.reference));
                  });
   return floor;
@@ -175,6 +191,7 @@ void measure_locking(const BasicModel<Dim>& model, const BasicState<Dim>& state,
     sum.section = model.sections[s].name;
     sum.flows = here.flows;
     sum.wedges = sum.wedges || here.wedges;
+    sum.second = sum.second || here.second;
     sum.energy += here.energy;
     sum.enhanced += here.enhanced;
     sum.bbar += here.bbar;
@@ -188,18 +205,20 @@ std::string locks(const Locking& found) {
   const bool volume = found.bbar < found.enhanced;
   const double left = volume ? found.bbar : found.enhanced;
   return fmt::format(
-      "warning: section '{}': {:.2g} % of the {} is in strains that first-order cells "
-      "cannot avoid (they lock, {}): the body is too stiff; give it {}second-order cells{}, or "
-      "more cells",
+      "warning: section '{}': {:.2g} % of the {} is in strains that {} cells "
+      "cannot avoid (they lock, {}): the body is too stiff; give it {}{}or more cells",
       found.section, 100 * (1 - left / found.energy),
       found.flows ? "work done on cells that flow" : "strain energy",
+      found.second ? "plain" : "first-order",
       found.flows ? "since flow keeps the volume"
       : volume    ? "being nearly incompressible"
                   : "in bending",
       volume         ? "formulation: bbar, "
       : found.wedges ? ""
                      : "formulation: enhanced, ",
-      found.wedges && !volume ? " (S6 in place of S3)" : "");
+      found.second              ? ""
+      : found.wedges && !volume ? "second-order cells (S6 in place of S3), "
+                                : "second-order cells, ");
 }
 
 template void measure_locking(const BasicModel<2>&, const BasicState<2>&, std::vector<Locking>&);

@@ -8,11 +8,12 @@
 
 namespace osculate::model {
 
-/// How much of a section's energy is in strains that its first-order cells cannot help having, and
-/// that other formulations of the same cells would not have at the same displacements.
+/// How much of a section's energy is in strains that its plain cells cannot help having, and that
+/// other formulations of the same cells would not have at the same displacements.
 struct Locking {
   std::string section;
-  double energy = 0;  ///< of quad4 and hex8 cells with full integration, of thin wedge6 cells
+  double energy = 0;  ///< of quad4 and hex8 cells with full integration, of thin wedge6 cells, and
+                      ///< of those of second order that have a formulation bbar
   double enhanced =
       0;             ///< what is left with enhanced strains; that of `energy` where there are none
   double bbar = 0;   ///< with the mean volume change, where Poisson's ratio is near a half or the
@@ -20,6 +21,7 @@ struct Locking {
   double floor = 0;  ///< of strains too small to be told from round-off, in states that may lock
   bool wedges = false;  ///< it has thin wedge6 cells (CalculiX' S3)
   bool flows = false;   ///< the section's law remembers: only cells that flow are in the sums
+  bool second = false;  ///< cells of second order are in the sums
   [[nodiscard]] bool large() const {
     return energy > floor && energy - std::min(enhanced, bbar) > 0.15 * energy;
   }

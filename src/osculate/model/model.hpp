@@ -21,7 +21,8 @@ struct BasicBulkSection {
   std::string name;  ///< set it was given on
   solid::Section<Dim> section;
   std::vector<mesh::CellRef> cells;
-  std::string material{};  ///< its name
+  std::string material{};   ///< its name
+  bool by_default = false;  ///< nobody asked for the formulation
   /// By cell: strains of its points in the undeformed body, six numbers a point; none of a cell, or
   /// of all, where it has none.
   std::vector<std::vector<double>> initial{};

@@ -137,9 +137,9 @@ void fields(Archive& a, SmallStrain& found) {
 }
 template <class Archive>
 void fields(Archive& a, Locking& found) {
-  auto& [section, energy, enhanced, bbar, floor, wedges, flows] = found;
+  auto& [section, energy, enhanced, bbar, floor, wedges, flows, second] = found;
   (void)wedges;  // known anew after the next increment
-  a(section, energy, enhanced, bbar, floor, flows);
+  a(section, energy, enhanced, bbar, floor, flows, second);
 }
 }  // namespace osculate::model
 
@@ -185,7 +185,7 @@ void fields(Archive& a, JournalEntry& e) {
 
 namespace {
 
-constexpr int version = 12;
+constexpr int version = 13;
 
 template <class... T>
 std::string saved(const T&... values) {

@@ -67,33 +67,6 @@ void evaluate_one_point(const Section<Dim>& section, const Coordinates<Dim>& ref
   sum.finish(out);
 }
 
-/// The same volume ratio at all points.
-template <int Dim>
-void evaluate_bbar(const Section<Dim>& section, const Coordinates<Dim>& displacement,
-                   const material::Memory& memory, bool with_tangent, CornerPoints<Dim>& points,
-                   ElementResult<Dim>& out) {
-  const bool finite = section.kinematics == Kinematics::finite;
-  MeanDilatation<Dim> mean;
-  if (finite)
-    mean = mean_dilatation<Dim>(points);
-  else
-    average_volume_small<Dim>(points, displacement);
-  const CornerPoints<Dim>& seen = finite ? mean.point : points;
-  CellSum<Dim, corners<Dim>> sum(section, corners<Dim>, with_tangent);
-  std::array<Vec<components<Dim>>, corners<Dim>> stress;
-  for (std::size_t q = 0; q < seen.size(); ++q) {
-    const auto r = point_response(section, seen[q].strain, memory.at(q));
-    if (!r.ok) {
-      out.status = Status::material_failed;
-      return;
-    }
-    stress[q] = r.stress;
-    sum.add(seen[q], r, finite ? mean.scale[q] : 1);
-  }
-  if (with_tangent && finite) add_mean_dilatation_curvature<Dim>(points, stress, mean, sum.tangent);
-  sum.finish(out);
-}
-
 /// Enhanced strains: the mode parameters are condensed out of force and tangent.
 template <int Count, int Dim>
 void evaluate_enhanced(const Section<Dim>& section, const Coordinates<Dim>& reference,
@@ -122,19 +95,16 @@ void evaluate_enhanced(const Section<Dim>& section, const Coordinates<Dim>& refe
   sum.finish(out);
 }
 
-/// The formulations of quad4 and hex8.
 template <int Dim>
-void evaluate_corners(const Section<Dim>& section, const Coordinates<Dim>& reference,
-                      const Coordinates<Dim>& displacement, const material::Memory& memory,
-                      bool with_tangent, ElementResult<Dim>& out) {
+void evaluate_modes(const Section<Dim>& section, const Coordinates<Dim>& reference,
+                    const Coordinates<Dim>& displacement, const material::Memory& memory,
+                    bool with_tangent, ElementResult<Dim>& out) {
   CornerPoints<Dim> points;
   if (!fill_points<Dim>(section, reference, displacement, points)) {
     out.status = Status::inverted;
     return;
   }
-  if (section.formulation == Formulation::bbar)
-    evaluate_bbar(section, displacement, memory, with_tangent, points, out);
-  else if constexpr (Dim == 3)
+  if constexpr (Dim == 3)
     evaluate_enhanced<space_modes>(section, reference, memory, with_tangent, points, out);
   else if (is_ring(section))
     evaluate_enhanced<ring_modes>(section, reference, memory, with_tangent, points, out);
@@ -160,9 +130,10 @@ void evaluate_whole(const Section<Dim>& section, CellType type, const Coordinate
   const bool reduced = section.formulation == Formulation::reduced;
   if (reduced && type == corner_cell<Dim>)
     evaluate_one_point<Dim>(section, reference, displacement, memory, with_tangent, out);
-  else if (!reduced && section.formulation != Formulation::full &&
-           section.formulation != Formulation::beam)
-    evaluate_corners(section, reference, displacement, memory, with_tangent, out);
+  else if (section.formulation == Formulation::bbar)
+    evaluate_bbar(section, type, reference, displacement, memory, with_tangent, out);
+  else if (section.formulation == Formulation::enhanced)
+    evaluate_modes(section, reference, displacement, memory, with_tangent, out);
   else if (type == corner_cell<Dim>)
     evaluate_full_of.template operator()<corners<Dim>>();
   else if (type == simplex)
@@ -233,11 +204,16 @@ std::string_view unsupported(const Section<Dim>& section, CellType type) {
   }
   if (section.formulation == Formulation::beam)
     return type == CellType::hex20 ? "" : "formulation beam exists for hex20 cells only; use auto";
-  if (type != corner_cell<Dim>)
-    return Dim == 2 ? "formulations bbar and enhanced exist for quad4 cells only; use auto"
-                    : "formulations bbar and enhanced exist for hex8 cells only; use auto";
+  if (section.formulation == Formulation::enhanced) {
+    if (type == corner_cell<Dim>) return {};
+    return Dim == 2 ? "formulation enhanced exists for quad4 cells only; use auto"
+                    : "formulation enhanced exists for hex8 cells only; use auto";
+  }
+  if (volume_terms<Dim>(type) == 0)
+    return Dim == 2 ? "formulation bbar exists for quad4 and second-order cells; use auto"
+                    : "formulation bbar exists for hex8 and second-order cells; use auto";
   if constexpr (Dim == 2) {
-    if (section.formulation == Formulation::bbar && section.assumption == Assumption::plane_stress)
+    if (section.assumption == Assumption::plane_stress)
       return "formulation bbar has no use in plane stress; use full or enhanced";
   }
   return {};

@@ -14,15 +14,17 @@ namespace osculate::solid {
 
 enum class Assumption { plane_strain, plane_stress, axisymmetric };
 enum class Kinematics { small, finite };
-/// full: plain displacement element. bbar: mean dilatation (quad4, hex8; not plane stress), against
-/// volumetric locking. enhanced: incompatible strain modes (four of quad4, five of it where
-/// axisymmetric, twelve of hex8), against bending and volumetric locking. solid_shell: assumed and
-/// enhanced strains of thin bodies in space (hex8, shell18). reduced: one point for quad4 and hex8,
-/// whose other modes are stabilised (reduced.hpp); two along each axis for quad8 and hex20, of
-/// which one cell alone keeps one mode (quad8) without energy, as do neighbours that are few, or
-/// six (hex20), which have a very small one (reduced.hpp); two along the height for wedge6
-/// (likewise one mode). beam: hex20 whose first axis lies along a beam, two points along it, five
-/// by five across.
+/// full: plain displacement element. bbar: mean dilatation against volumetric locking, linear in
+/// quad8, quad9, hex20 and hex27, constant in quad4, hex8, tri6, tet10 and wedge15
+/// (mean_dilatation.hpp; not plane stress); a tet10 or wedge15 alone keeps three modes without
+/// energy, a tri6 of a ring one. enhanced:
+/// incompatible strain modes (four of quad4, five of it where axisymmetric, twelve of hex8),
+/// against bending and volumetric locking. solid_shell: assumed and enhanced strains of thin bodies
+/// in space (hex8, shell18). reduced: one point for quad4 and hex8, whose other modes are
+/// stabilised (reduced.hpp); two along each axis for quad8 and hex20, of which one cell alone keeps
+/// one mode (quad8) without energy, as do neighbours that are few, or six (hex20), which have a
+/// very small one (reduced.hpp); two along the height for wedge6 (likewise one mode). beam: hex20
+/// whose first axis lies along a beam, two points along it, five by five across.
 enum class Formulation { full, bbar, enhanced, solid_shell, reduced, beam };
 
 /// What a body in the plane or in space is made of.
@@ -68,6 +70,18 @@ using ElementVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, Dim * Nodes, 1
 template <int Dim, int Nodes = max_nodes<Dim>>
 using ElementMatrix =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, Dim * Nodes, Dim * Nodes>;
+
+/// Terms of the volume ratio of formulation bbar in a cell: 1, a constant, or 1 + Dim, linear in
+/// the coordinates of the undeformed body; 0 for cells that have no such formulation.
+///
+/// Source     constant of quad4, hex8: Simo, Taylor & Pister 1985; of tri6, tet10 (P2-P0) and
+/// linear
+///            of quad9, hex27 (Q2-P1): Boffi, Brezzi & Fortin 2013, chapter 8; in the coordinates
+///            of the body, not in those of the cell: Boffi & Gastaldi 2002; quad8, hex20, wedge15:
+///            measured, decision 064
+/// Tested by  tests/unit/solid/test_stress.cpp, test_mean_dilatation.cpp
+template <int Dim>
+[[nodiscard]] int volume_terms(cell::CellType type);
 
 enum class Status { ok, inverted, material_failed };
 

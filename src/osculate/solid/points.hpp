@@ -220,6 +220,22 @@ template <int Dim, int N>
   return one_to_one(finite, p);
 }
 
+/// What the material sees at the quadrature points.
+template <int Dim>
+struct Seen {
+  Status status = Status::ok;
+  std::array<Mat<Dim, Dim>, max_points<Dim>> f;
+  std::array<double, max_points<Dim>> f33;
+  std::array<Vec<components<Dim>>, max_points<Dim>> strain;
+
+  template <int N>
+  void set(std::size_t q, const Point<Dim, N>& p) {
+    f[q] = p.f;
+    if constexpr (Dim == 2) f33[q] = p.f33;
+    strain[q] = p.strain;
+  }
+};
+
 [[nodiscard]] inline material::Response point_response(const Section<2>& section,
                                                        const material::Strain& strain,
                                                        const material::Memory& memory,

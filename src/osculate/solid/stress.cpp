@@ -16,22 +16,6 @@ namespace {
 
 using cell::CellType;
 
-/// What the material sees at the quadrature points.
-template <int Dim>
-struct Seen {
-  Status status = Status::ok;
-  std::array<Mat<Dim, Dim>, max_points<Dim>> f;
-  std::array<double, max_points<Dim>> f33;
-  std::array<Vec<components<Dim>>, max_points<Dim>> strain;
-
-  template <int N>
-  void set(std::size_t q, const Point<Dim, N>& p) {
-    f[q] = p.f;
-    if constexpr (Dim == 2) f33[q] = p.f33;
-    strain[q] = p.strain;
-  }
-};
-
 template <int Dim>
 void see_full(const Section<Dim>& section, CellType type, const Coordinates<Dim>& reference,
               const Coordinates<Dim>& displacement, Seen<Dim>& out) {
@@ -67,28 +51,21 @@ void enhance(const Section<Dim>& section, const Coordinates<Dim>& reference,
   for (std::size_t q = 0; q < points.size(); ++q) points[q].strain += e.matrix[q] * e.alpha;
 }
 
-/// The formulations that assume strains.
 template <int Dim>
-void see_assumed(const Section<Dim>& section, const Coordinates<Dim>& reference,
-                 const Coordinates<Dim>& displacement, const material::Memory& memory,
-                 Seen<Dim>& out) {
+void see_enhanced(const Section<Dim>& section, const Coordinates<Dim>& reference,
+                  const Coordinates<Dim>& displacement, const material::Memory& memory,
+                  Seen<Dim>& out) {
   CornerPoints<Dim> points;
   if (!fill_points<Dim>(section, reference, displacement, points)) {
     out.status = Status::inverted;
     return;
   }
-  if (section.formulation == Formulation::enhanced) {
-    if constexpr (Dim == 3)
-      enhance<space_modes>(section, reference, memory, points, out.status);
-    else if (is_ring(section))
-      enhance<ring_modes>(section, reference, memory, points, out.status);
-    else
-      enhance<plane_modes>(section, reference, memory, points, out.status);
-  } else if (section.kinematics == Kinematics::finite) {
-    points = mean_dilatation<Dim>(points).point;
-  } else {
-    average_volume_small<Dim>(points, displacement);
-  }
+  if constexpr (Dim == 3)
+    enhance<space_modes>(section, reference, memory, points, out.status);
+  else if (is_ring(section))
+    enhance<ring_modes>(section, reference, memory, points, out.status);
+  else
+    enhance<plane_modes>(section, reference, memory, points, out.status);
   for (std::size_t q = 0; q < points.size(); ++q) out.set(q, points[q]);
 }
 
@@ -256,8 +233,10 @@ CellStress<Dim> stress_at_points(const Section<Dim>& section, CellType type,
     see_one_point(section, reference, displacement, seen);
   else if (reduced || plain)
     see_full(section, type, reference, displacement, seen);
+  else if (section.formulation == Formulation::bbar)
+    see_bbar(section, type, reference, displacement, seen);
   else
-    see_assumed(section, reference, displacement, memory, seen);
+    see_enhanced(section, reference, displacement, memory, seen);
   CellStress<Dim> out;
   out.status = seen.status;
   out.count = static_cast<int>(rule.points.size());

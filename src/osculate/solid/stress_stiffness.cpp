@@ -23,17 +23,6 @@ void add_stressed_point(const Point<Dim, N>& p, const Vec<components<Dim>>& of_p
   }
 }
 
-/// What one volume ratio for all points adds.
-template <int Dim>
-void add_of_one_ratio(const CornerPoints<Dim>& points, const CellStress<Dim>& stress,
-                      ElementMatrix<Dim>& whole) {
-  std::array<Vec<components<Dim>>, corners<Dim>> of_points;
-  for (std::size_t q = 0; q < of_points.size(); ++q) of_points[q] = stress.point[q].stress;
-  typename CornerSizes<Dim>::Matrix k = CornerSizes<Dim>::Matrix::Zero();
-  add_mean_dilatation_curvature<Dim>(points, of_points, mean_dilatation<Dim>(points), k);
-  whole += k;
-}
-
 }  // namespace
 
 template <int Dim>
@@ -64,11 +53,8 @@ ElementMatrix<Dim> stress_stiffness(const Section<Dim>& section, cell::CellType 
       add_stressed_point<Dim>(p, stress.point[q].stress, each, whole);
     }
   }
-  if (section.formulation == Formulation::bbar) {
-    CornerPoints<Dim> points;
-    (void)fill_points<Dim>(section, reference, none, points);
-    add_of_one_ratio<Dim>(points, stress, whole);
-  }
+  if (section.formulation == Formulation::bbar)
+    add_bbar_stress_stiffness(section, type, reference, stress, whole);
   for (Eigen::Index b = 0; b < n; ++b)
     for (Eigen::Index a = b; a < n; ++a)
       for (Eigen::Index i = 0; i < Dim; ++i) whole(Dim * a + i, Dim * b + i) += each(a, b);

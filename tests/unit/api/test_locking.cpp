@@ -104,6 +104,31 @@ TEST(Locking, ABlockThatHardlyChangesItsVolumeIsTooStiff) {
   EXPECT_THAT(warnings_of(block(", formulation: full", pressed, 0.3)), IsEmpty());
 }
 
+/// A quarter of a thick cylinder under internal pressure.
+std::string cylinder(const std::string& type, const std::string& formulation, double poisson) {
+  return fmt::format(R"(osculate: 1
+mesh: {{generate: {{t: {{ring: {{radius: [1, 2], angle: [0, 90], elements: [2, 2], type: {}}}}}}}}}
+materials: {{m: {{linear_elastic: {{E: 1, nu: {}}}}}}}
+sections: [{{on: t, material: m, element: plane_strain, formulation: {}}}]
+steps: [{{name: s, increments: 1, prescribe: [{{on: t.from, uy: 0}}, {{on: t.to, ux: 0}}], pressure: [{{on: t.inner, value: 0.01}}]}}]
+output: {{fields: none, report: false}}
+)",
+                     type, poisson, formulation);
+}
+
+TEST(Locking, CurvedPlainCellsOfSecondOrderThatHardlyChangeTheirVolumeLockToo) {
+  for (const char* const type : {"quad8", "quad9", "tri6"}) {
+    SCOPED_TRACE(type);
+    for (const char* const plain : {"auto", "full"}) {
+      EXPECT_THAT(warnings_of(cylinder(type, plain, 0.4999)),
+                  ElementsAre(AllOf(HasSubstr("strains that plain cells"),
+                                    HasSubstr("give it formulation: bbar, or more cells"))));
+      EXPECT_THAT(warnings_of(cylinder(type, plain, 0.3)), IsEmpty());
+    }
+    EXPECT_THAT(warnings_of(cylinder(type, "bbar", 0.4999)), IsEmpty());
+  }
+}
+
 TEST(Locking, UniformCompressionDoesNotLock) {
   EXPECT_THAT(warnings_of(block(", formulation: full",
                                 "{on: b.bottom, uy: 0}, {on: b.left, ux: 0}, {on: punch, uy: "

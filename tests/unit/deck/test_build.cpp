@@ -108,12 +108,12 @@ TEST(Build, Sections) {
        "section"},
       {{{"{on: high, material: steel, element: plane_strain}",
          "{on: high, material: steel, element: plane_strain, formulation: enhanced}"}},
-       "model.yaml:12: sections[1].formulation: set 'high' has tri3 cells: formulations bbar and "
-       "enhanced exist for quad4 cells only; use auto"},
+       "model.yaml:12: sections[1].formulation: set 'high' has tri3 cells: formulation enhanced "
+       "exists for quad4 cells only; use auto"},
       {{{"{on: high, material: steel, element: plane_strain}",
          "{on: high, material: steel, element: plane_strain, formulation: bbar}"}},
-       "model.yaml:12: sections[1].formulation: set 'high' has tri3 cells: formulations bbar and "
-       "enhanced exist for quad4 cells only; use auto"},
+       "model.yaml:12: sections[1].formulation: set 'high' has tri3 cells: formulation bbar "
+       "exists for quad4 and second-order cells; use auto"},
       {{{"{on: low, material: steel, element: plane_strain}",
          "{on: low, material: steel, element: plane_stress, formulation: bbar}"}},
        "model.yaml:11: sections[0].formulation: set 'low' has quad4 cells: formulation bbar has no "

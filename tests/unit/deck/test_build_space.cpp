@@ -331,9 +331,9 @@ TEST(BuildSpace, WhatSpaceDoesNotHave) {
           {"element: solid, formulation: beam}", "element: solid_shell, formulation: bbar}",
            "model.yaml:16: sections[1].formulation: solid_shell elements have a formulation of "
            "their own"},
-          {"element: solid, formulation: beam}", "element: solid, formulation: bbar}",
-           "model.yaml:16: sections[1].formulation: set 'high' has hex20 cells: formulations bbar "
-           "and enhanced exist for hex8 cells only; use auto"},
+          {"element: solid, formulation: beam}", "element: solid, formulation: enhanced}",
+           "model.yaml:16: sections[1].formulation: set 'high' has hex20 cells: formulation "
+           "enhanced exists for hex8 cells only; use auto"},
       });
 }
 

@@ -38,9 +38,33 @@ TEST(Formulation, ByDefaultFirstOrderQuadrilateralsDoNotLock) {
 
 // A mesh of quadrilaterals with some triangles is one section.
 TEST(Formulation, OtherCellsOfTheSectionArePlain) {
-  for (const CellType type : {CellType::tri3, CellType::quad8}) {
+  for (const CellType type : {CellType::tri3, CellType::tri6}) {
     EXPECT_EQ(formulation_on("linear_elastic", "plane_strain", type), solid::Formulation::full);
     EXPECT_EQ(formulation_on("neo_hooke", "axisymmetric", type), solid::Formulation::full);
+  }
+  EXPECT_EQ(formulation_on("linear_elastic", "plane_strain", CellType::quad8),
+            solid::Formulation::full);
+}
+
+// decision 064
+TEST(Formulation, OfSecondOrderRubberIsBbarWhereItsVolumeRatioIsLinear) {
+  for (const CellType type : {CellType::quad8, CellType::quad9}) {
+    EXPECT_EQ(formulation_on("neo_hooke", "plane_strain", type), solid::Formulation::bbar);
+    EXPECT_EQ(formulation_on("neo_hooke", "axisymmetric", type), solid::Formulation::bbar);
+    EXPECT_EQ(formulation_on("neo_hooke", "plane_stress", type), solid::Formulation::full);
+  }
+}
+
+TEST(Formulation, ThatIsAskedForIsThatOfAllCellsOfSecondOrder) {
+  for (const CellType type : {CellType::tri6, CellType::quad8}) {
+    std::string own =
+        edited(text, "element: plane_strain", "element: plane_strain, formulation: bbar");
+    own = edited(own, "type: tri3", "type: tri6");
+    const Description description = parse_model(own, "model.yaml");
+    EXPECT_EQ(
+        model::section_on(build(description, load_mesh(description)).model.sections.at(0), type)
+            .formulation,
+        solid::Formulation::bbar);
   }
 }
 
@@ -64,7 +88,11 @@ TEST(Formulation, InSpaceLikewise) {
   EXPECT_EQ(formulation("st_venant_kirchhoff", "hex8"), enhanced);
   EXPECT_EQ(formulation("neo_hooke", "hex8"), bbar);
   EXPECT_EQ(formulation("linear_elastic", "tet4"), full);
-  EXPECT_EQ(formulation("neo_hooke", "hex20"), full);
+  EXPECT_EQ(formulation("linear_elastic", "hex20"), full);
+  EXPECT_EQ(formulation("neo_hooke", "hex20"), bbar);
+  EXPECT_EQ(formulation("neo_hooke", "hex27"), bbar);
+  EXPECT_EQ(formulation("neo_hooke", "wedge15"), full);
+  EXPECT_EQ(formulation("neo_hooke", "tet10"), full);
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ void for_each_section(const std::function<void(const SectionCase&)>& visit) {
             ++visited;
             visit(c);
           });
-  EXPECT_EQ(visited, 26 * form_count);  // 5 cells x 3 assumptions, bbar 2, enhanced 3, reduced 6
+  EXPECT_EQ(visited, 32 * form_count);  // 5 cells x 3 assumptions, bbar 8, enhanced 3, reduced 6
 }
 
 double noise(Eigen::Index i, Eigen::Index j, int seed) {

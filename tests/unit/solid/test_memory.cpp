@@ -60,7 +60,7 @@ void for_each_yielding(Kind kind, const std::function<void(Yielding&)>& visit) {
     ++visited;
     visit(y);
   });
-  EXPECT_EQ(visited, kind == Kind::plane ? 52 : kind == Kind::space ? 28 : 4);
+  EXPECT_EQ(visited, kind == Kind::plane ? 64 : kind == Kind::space ? 36 : 4);
 }
 
 void expect_consistent(const Yielding& y, const Eigen::MatrixXd& x, const Eigen::MatrixXd& u) {

@@ -44,8 +44,8 @@ void for_each_volume(const std::function<void(const VolumeCase&)>& visit) {
           visit(c);
         });
   EXPECT_EQ(visited,
-            14 * form_count);  // 8 cells, bbar, enhanced and reduced of hex8, reduced of hex20 and
-                               // wedge6, beam of hex20
+            18 * form_count);  // 8 cells, bbar of hex8 and four of second order, enhanced and
+                               // reduced of hex8, reduced of hex20 and wedge6, beam of hex20
 }
 
 void for_each_shell(const std::function<void(const VolumeCase&)>& visit) {
