@@ -257,25 +257,39 @@ void add_force(const Strains& b, const Stress& s, Vector& force) {
   for (Eigen::Index c = 0; c < b.rows(); ++c) force += s[c] * b.row(c).transpose();
 }
 
-/// Adds the lower triangle of b^T d b for a symmetric d. The sums run along contiguous rows of b.
+/// Adds the lower triangle of b^T d b for a symmetric d, in blocks of four rows and columns: those
+/// on the diagonal are added as a whole. The sums run along contiguous rows of b.
 template <class Strains, int C, class Matrix>
 void add_material(const Strains& b, const Mat<C, C>& d, Matrix& lower) {
+  static_assert(Strains::IsRowMajor && !Matrix::IsRowMajor);
+  using Four = Eigen::Array4d;
   Strains db = b;
   for (Eigen::Index c = 0; c < C; ++c) {
     db.row(c) = d(c, 0) * b.row(0);
     for (Eigen::Index e = 1; e < C; ++e) db.row(c) += d(c, e) * b.row(e);
   }
-  const Eigen::Index dofs = b.cols();
-  for (Eigen::Index j = 0; j < dofs; ++j) {
-    const Eigen::Index m = dofs - j;
-    const auto first = b(0, j) * db.row(0).tail(m) + b(1, j) * db.row(1).tail(m) +
-                       b(2, j) * db.row(2).tail(m) + b(3, j) * db.row(3).tail(m);
-    if constexpr (C == 4)
-      lower.col(j).tail(m) += first.transpose();
-    else
-      lower.col(j).tail(m) +=
-          (first + b(4, j) * db.row(4).tail(m) + b(5, j) * db.row(5).tail(m)).transpose();
-  }
+  const Eigen::Index dofs = b.cols(), whole = dofs - dofs % 4;
+  for (Eigen::Index j = 0; j < whole; j += 4)
+    for (Eigen::Index i = j; i < whole; i += 4) {
+      Four sum0 = Four::Zero(), sum1 = sum0, sum2 = sum0, sum3 = sum0;  // loops are not unrolled
+      for (Eigen::Index c = 0; c < C; ++c) {
+        const Four row = Eigen::Map<const Four>(&db(c, i));
+        sum0 += b(c, j) * row;
+        sum1 += b(c, j + 1) * row;
+        sum2 += b(c, j + 2) * row;
+        sum3 += b(c, j + 3) * row;
+      }
+      Eigen::Map<Four>(&lower(i, j)) += sum0;
+      Eigen::Map<Four>(&lower(i, j + 1)) += sum1;
+      Eigen::Map<Four>(&lower(i, j + 2)) += sum2;
+      Eigen::Map<Four>(&lower(i, j + 3)) += sum3;
+    }
+  for (Eigen::Index i = whole; i < dofs; ++i)
+    for (Eigen::Index j = 0; j <= i; ++j) {
+      double sum = 0;
+      for (Eigen::Index c = 0; c < C; ++c) sum += db(c, i) * b(c, j);
+      lower(i, j) += sum;
+    }
 }
 
 /// Adds the lower triangle of grad N_a . s grad N_b, the part of the tangent from the change of B.
