@@ -262,7 +262,7 @@ void build_contact_all(BuildContext<Dim>& c, const Contact& contact) {
       if (!excluded(bodies[i], bodies[j], contact) && !bodies[i].surface.facets.empty() &&
           !bodies[j].surface.facets.empty())
         add_pairs(c, contact, bodies[i], bodies[j], apart);
-  if (c.model().pairs.size() == before)
+  if (c.model().pairs.size() == before && c.description.contact.size() == 1)
     throw core::InputError(contact.name.mark, "no pair of bodies is left that may touch");
 }
 

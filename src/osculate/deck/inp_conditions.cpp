@@ -70,7 +70,11 @@ void read_boundary(const InpReading& r, const Card& card) {
     const std::string& set_name = node_set_of(r.m, line, fields.next().value_or(""));
     double size = 0;
     if (is_idle(r, set_name, line)) continue;
-    for (const int k : held_here(r.m, fields, line, set_name, size))
+    const std::vector<int> directions = held_here(r.m, fields, line, set_name, size);
+    if (size != 0 && std::ranges::find(directions, 3) != directions.end())
+      refuse_layers_of_plane(r.m, line.at, set_name, PlaneNodes::of_deck,
+                             "they do not leave their plane, and are not displaced along z");
+    for (const int k : directions)
       for (const InpPlace& place : places_here(r.m, fields, set_name, k)) {
         if (!inp_has_direction(r.m, place.direction)) continue;
         const std::pair key{place.on, place.direction};

@@ -104,6 +104,8 @@ SourceNode inp_normal(const InpModel& m, const Card* behavior, int line, double 
   if (!behavior) return normal;  // hard
   const std::string kind = option_of(*behavior, "PRESSURE-OVERCLOSURE");
   if (io::inp::find_parameter(*behavior, "NOSEPARATION")) {
+    if (kind == "TABULAR" || kind == "EXPONENTIAL")
+      io::inp::fail(m.deck, *behavior, "NO SEPARATION goes with HARD and LINEAR, found " + kind);
     put(normal, "separation", inp_text("no_separation", line_of(behavior->at)));
     clearance = 0;  // what holds needs no tension
   }

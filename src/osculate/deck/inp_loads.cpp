@@ -136,6 +136,12 @@ void read_centrifugal(const InpReading& r, const LoadLine& load) {
   const std::string& on =
       set_of(r.m, load.line.at, io::inp::element_set_name(load.elements), {SetKind::elements});
   const int axis_number = static_cast<int>(known - axes.begin());
+  for (auto& [key, value] : r.acting.parts[0].centrifugal)  // that of a step before is replaced
+    if (key.first == on && key.second != axis_number && !value.fresh) {
+      value.size = 0;
+      value.amplitude.clear();
+      value.released = true;
+    }
   tell_of_several(r, load, on, axis_number);
   set_condition(r.m, r.acting.parts[0].centrifugal, {on, axis_number}, speed, load.said, load.line,
                 true);
@@ -222,7 +228,9 @@ void read_traction(const InpReading& r, const Card& card, const LoadLine& load,
   if (!(direction.norm() > 0)) load.fields.fail("expected the direction of the traction");
   direction.normalize();
   for (int k = 0; k < 3; ++k) {
-    if (direction[k] == 0) continue;
+    const auto along = [&](const auto& one) { return one.first.second == k + 1; };
+    // that of a step before is replaced, its other components, too
+    if (direction[k] == 0 && std::ranges::none_of(tractions, along)) continue;
     if (k >= inp_dimension(r.m)) load.fields.fail("the traction points out of the plane");
     add_load(r, tractions, {on, k + 1}, size * direction[k], load.said, load.line);
   }

@@ -219,13 +219,20 @@ class StepChecker {
           require_rigid(d_, load.on, load.values[i]->mark, force_names[i]);
       for (std::size_t i = 0; i < component_count; ++i)
         if (load.values[i])
-          add_unique(seen, load.on.value + "." + components[i] + phase_text(load),
+          add_unique(seen, load.on.value + "." + components[i] + phase_text(load) + axis_text(load),
                      load.values[i]->mark, "load on");
     }
   }
 
   static std::string phase_text(const Load& load) {
     return load.phase ? fmt::format(" (phase {:g})", load.phase->value) : std::string{};
+  }
+
+  /// Of centrifugal loads, whose axes may be others.
+  static std::string axis_text(const Load& load) {
+    if (load.from == Load{}.from && load.to == Load{}.to) return {};
+    return fmt::format(" (axis from {:g}, {:g}, {:g} to {:g}, {:g}, {:g})", load.from[0],
+                       load.from[1], load.from[2], load.to[0], load.to[1], load.to[2]);
   }
 
   /// A displacement cannot be prescribed while the force that belongs to it is given.

@@ -24,11 +24,13 @@ std::string written_table(const std::string& path, Leaves& leaves) {
 
 /// `*SURFACE BEHAVIOR` of `normal`. What is not taken of it has no counterpart.
 std::string written_pressure(const std::string& path, Leaves& leaves) {
-  const bool tied = leaves.text(path + ".separation") == "tied";
+  const std::string separation = leaves.text(path + ".separation");
+  const bool tied = separation == "tied", holds = separation == "no_separation";
   const auto penalty = leaves.number(path + ".penalty");
-  if (tied && !penalty)
+  if (separation == "tied_normal" || (tied && !penalty))
     leaves.fail(path + ".separation", "is written with a penalty; *TIE is written of `ties`");
-  std::string text = "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=";
+  const std::string text =
+      fmt::format("*SURFACE BEHAVIOR{}, PRESSURE-OVERCLOSURE=", holds ? ", NO SEPARATION" : "");
   if (penalty) return text + fmt::format("{}\n{}\n", tied ? "TIED" : "LINEAR", exact(*penalty));
   if (const auto stiffness = leaves.number(path + ".tensile.stiffness")) {
     const auto tension = leaves.number(path + ".tensile.tension"),

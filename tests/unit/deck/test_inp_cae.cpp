@@ -124,12 +124,27 @@ TEST(InpCae, ForcesPerVolume) {
   EXPECT_LT((run.reaction_of("BASE") - Vec3(-3, 0, 1)).norm(), 1e-9);
 }
 
+/// A displacement takes the place of a force that ends with the same step.
+TEST(InpCae, AForceThatEndsWhereADisplacementBegins) {
+  const DeckRun run = run_deck(cube(
+      "*BOUNDARY\nBASE, 1, 3\n*NSET, NSET=UP\n5, 6, 7, 8\n",
+      "*CLOAD\nUP, 3, 1.\n*END STEP\n*STEP\n*STATIC\n*CLOAD, OP=NEW\n*BOUNDARY\nUP, 3, 3, 0.\n"));
+  EXPECT_NEAR(run.reaction_of("BASE").z(), -4, 1e-9);
+  EXPECT_NEAR(run.reaction_of("BASE", 1).z(), 0, 1e-9);
+}
+
 /// A traction of 5 on the unit face at the top, whatever the length of its vector.
 TEST(InpCae, TractionsOfConstantDirection) {
   const std::string face = "*SURFACE, NAME=S\nE, S2\n*BOUNDARY\nBASE, 1, 3\n";
   const std::string load = "S, TRVEC, 5., 6., 0., -8.\n";
   const DeckRun run = run_deck(cube(face, "*DSLOAD\n" + load + "*DSLOAD\nS, P, 1.\n"));
   EXPECT_LT((run.reaction_of("BASE") - Vec3(-3, 0, 5)).norm(), 1e-9);
+  const std::string again = "*END STEP\n*STEP\n*STATIC\n*DSLOAD\nS, TRVEC, 3., 1., 0., 0.\n";
+  EXPECT_LT(
+      (run_deck(cube(face, "*DSLOAD\n" + load + again)).reaction_of("BASE", 1) - Vec3(-3, 0, 0))
+          .norm(),
+      1e-9)
+      << "replaced, not added to";
   const std::string finite =
       edited(cube(face, "*DSLOAD, FOLLOWER=NO, CONSTANT RESULTANT=YES\n" + load), "*STEP\n",
              "*STEP, NLGEOM\n");

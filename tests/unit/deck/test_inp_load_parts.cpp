@@ -129,6 +129,10 @@ TEST(InpLoadParts, SeveralRotationsOfAnElementAddUp) {
             1e-12 * one.norm());
   EXPECT_LT((moved(a_step(first) + a_step("*DLOAD, OP=NEW\n" + second)) - two).norm(),
             1e-12 * one.norm());
+  const std::string all = "EALL, CENTRIF, 2." + other;  // of one set
+  const Eigen::VectorXd last = moved(a_step("*DLOAD\n" + all));
+  EXPECT_LT((moved(a_step(first + all)) - one - last).norm(), 1e-12 * one.norm());
+  EXPECT_LT((moved(a_step(first) + a_step("*DLOAD\n" + all)) - last).norm(), 1e-12 * one.norm());
   const auto told = [](const std::string& cards) {
     const TranslatedDeck deck = translate_deck(two_cubes(cards), "a.inp");
     return std::ranges::any_of(deck.notes, [](const std::string& note) {

@@ -281,6 +281,8 @@ TEST(InpPlane, WhatLayersCannotDoIsRefused) {
           "SURFACE\nPOINTS, FACE\n" +
           end),
       HasSubstr("a surface of their nodes is not supported, name their edges"));
+  EXPECT_THAT(message(mixed + "*STEP\n*STATIC\n*BOUNDARY\n1, 3, 3, 0.01\n*END STEP\n"),
+              HasSubstr("are not displaced along z"));
   EXPECT_THAT(message(mixed + end), IsEmpty());
 }
 

@@ -463,6 +463,12 @@ TEST(ToInp, LawsOfContactGoThereAndBack) {
   pair = pair_again("sampling: {gauss: 2}, normal: {}", text);
   EXPECT_THAT(text, HasSubstr("*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=HARD\n"));
   EXPECT_TRUE(pair.normal.law.automatic);
+  for (const std::string law : {"penalty: 1e4, ", ""}) {
+    pair = pair_again("sampling: {gauss: 2}, normal: {" + law + "separation: no_separation}", text);
+    EXPECT_THAT(text, HasSubstr("*SURFACE BEHAVIOR, NO SEPARATION, PRESSURE-OVERCLOSURE="));
+    EXPECT_EQ(pair.normal.separation.value, SeparationWord::no_separation);
+    EXPECT_EQ(pair.normal.law.automatic, law.empty());
+  }
   pair = pair_again("sampling: mortar, enforcement: lagrange_multiplier", text);
   EXPECT_EQ(pair.enforcement.value.kind, EnforcementWord::lagrange_multiplier);
   pair = pair_again("sampling: mortar, normal: {penalty: 1e4}", text);

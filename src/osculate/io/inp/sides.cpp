@@ -69,9 +69,11 @@ void Sides::add_side(const SurfaceEntry& entry, Index element, std::vector<mesh:
       find_side(*type, as_it_is ? entry.side : solid_side(entry.side, entry.of_load, as));
   if (side.kind == Side::Kind::none)
     fail(deck_, entry.set.at,
-         fmt::format("element {} of type {} has no side {}; expected {}",
-                     mesh::cell_number(mesh_, ref), type->name, shown(entry.side),
-                     layer ? fmt::format("S1 to S{}", cell::info(type->cell).corners / 2)
+         fmt::format("element {} of {} has no side {}; expected {}", mesh::cell_number(mesh_, ref),
+                     layer ? std::string("the plane") : fmt::format("type {}", type->name),
+                     shown(entry.side),
+                     layer ? fmt::format("{0}1 to {0}{1}", entry.of_load ? 'P' : 'S',
+                                         cell::info(type->cell).corners / 2)
                            : side_names(*type)));
   if (side.kind == Side::Kind::whole) return cells.push_back(ref);
   // of layers the bottom is that of the first, the top that of the last, the sides are those of all
