@@ -137,6 +137,7 @@ struct Iterative::Impl {
   bool fresh = false;               ///< the coarser models are those of the last matrix
   bool anew = true;                 ///< those that are there are not to be used
   bool refused = false;             ///< a matrix since `begin_anew` was left to the direct solver
+  bool unsound = false;             ///< `sound` has said so since `begin_anew`
   bool tried = false;               ///< with noise, a matrix since `may_come_loose`
   bool trusts = false;              ///< matrices are not tried before somebody asks
   double pace = 0, first_pace = 0;  ///< iterations a digit of the last solution, and the first
@@ -278,19 +279,22 @@ void Iterative::may_change(std::vector<Index> unknowns) {
 
 void Iterative::begin_anew() {
   impl_->anew = true;
-  impl_->refused = impl_->trusts = false;
+  impl_->refused = impl_->unsound = impl_->trusts = false;
 }
 
 void Iterative::may_come_loose() {
   impl_->tried = false;
   impl_->trusts = true;
+  impl_->refused = impl_->unsound;
 }
 
 bool Iterative::sound() {
   Impl& s = *impl_;
   const Timed timed(s.seconds);
   if (!s.by_multigrid || s.tried || s.resists_all()) return true;
-  s.refused = true;
+  // Coarser models of another matrix may be no good for noise.
+  if (!s.fresh && s.build(CompressedRows(s.bodies->matrix())) && s.resists_all()) return true;
+  s.refused = s.unsound = true;
   return false;
 }
 

@@ -119,21 +119,21 @@ void add_wedge(const solid::Section<2>&, cell::CellType, const CellPlaces<2>&,
 template <int Dim, class Of>
 void for_each_plain(const BasicModel<Dim>& model, const BasicState<Dim>& state, std::size_t s,
                     const Of& of) {
-  const BasicBulkSection<Dim>& section = model.sections[s];
-  const bool flows = !material::memory_of(section.section.law).empty();
+  const BasicBulkSection<Dim>& wanted = model.sections[s];
+  const bool flows = !material::memory_of(wanted.section.law).empty();
   std::map<cell::CellType, Compared<Dim>> types;
-  CellMemory memory;
-  for (std::size_t i = 0; i < section.cells.size(); ++i) {
-    const CellNodes cell = cell_nodes(model.mesh, section.cells[i]);
-    memory = memory_after(memory, section, i, cell.type);
-    auto type = types.find(cell.type);
-    if (type == types.end())
-      type = types.emplace(cell.type, compared(section, cell.type, flows)).first;
-    const Compared<Dim>& as = type->second;
-    if (memory.removed || (!as.any && cell.type != cell::CellType::wedge6)) continue;
-    const material::Memory remembered = memory.of(state.memory);
-    of(as, cell.type, remembered, places_of(model, section, cell.nodes, state.u, remembered));
-  }
+  for_each_cell(
+      model, [&](const auto& section, const mesh::CellRef& ref, const CellMemory& memory) {
+        if (&section != &wanted) return;
+        const CellNodes cell = cell_nodes(model.mesh, ref);
+        auto type = types.find(cell.type);
+        if (type == types.end())
+          type = types.emplace(cell.type, compared(section, cell.type, flows)).first;
+        const Compared<Dim>& as = type->second;
+        if (memory.removed || (!as.any && cell.type != cell::CellType::wedge6)) return;
+        const material::Memory remembered = memory.of(state.memory);
+        of(as, cell.type, remembered, places_of(model, section, cell.nodes, state.u, remembered));
+      });
 }
 
 /// The energies of one section in one state, but for the floor.

@@ -307,18 +307,19 @@ void see_cell(const Section<Dim>& section, CellType type, const Coordinates<Dim>
 
 }  // namespace
 
-template <>
-int volume_terms<2>(CellType type) {
+template <int Dim>
+int volume_terms(CellType type) {
   using enum CellType;
-  if (type == quad4 || type == tri6) return 1;
-  return type == quad8 || type == quad9 ? 3 : 0;
+  if constexpr (Dim == 2) {
+    if (type == quad4 || type == tri6) return 1;
+    return type == quad8 || type == quad9 ? 3 : 0;
+  } else {
+    if (type == hex8 || type == tet10 || type == wedge15) return 1;
+    return type == hex20 || type == hex27 ? 4 : 0;
+  }
 }
-template <>
-int volume_terms<3>(CellType type) {
-  using enum CellType;
-  if (type == hex8 || type == tet10 || type == wedge15) return 1;
-  return type == hex20 || type == hex27 ? 4 : 0;
-}
+template int volume_terms<2>(CellType);
+template int volume_terms<3>(CellType);
 
 template <int Dim>
 void evaluate_bbar(const Section<Dim>& section, CellType type, const Coordinates<Dim>& reference,

@@ -44,7 +44,7 @@ class FormerFactors {
   /// How much of the residual may be left by a correction.
   template <class Trial>
   [[nodiscard]] double aim(const NewtonResult<Trial>& result) const {
-    return std::max(wanted(result), moved_ ? on_the_way : 0.0);
+    return std::max(wanted(result), moved_ && wanted_ > 0 ? on_the_way : 0.0);
   }
   /// du = -K^-1 R ; false: the tangent of `system` is to be factored.
   template <System S>

@@ -161,6 +161,22 @@ TEST(Locking, AMetalThatFlowsIsTooStiff) {
   EXPECT_THAT(warnings_of(metal(", formulation: full", pressed(0.0015))), IsEmpty());  // begins to
 }
 
+/// What its cells remember stands behind what those of another section do, which rests.
+TEST(Locking, AMetalThatFlowsBesideOneThatDoesNot) {
+  std::string text = metal(", formulation: full",
+                           "{on: a.bottom, ux: 0, uy: 0}, {on: b.bottom, ux: 0, uy: 0}, {on: "
+                           "b.left, ux: 0}, {on: punch, uy: -0.08}");
+  const auto insert = [&](const std::string& before, const std::string& what) {
+    const std::size_t at = text.find(before);
+    ASSERT_NE(at, std::string::npos) << before;
+    text.insert(at, what);
+  };
+  insert("b: {box:", "a: {box: {x: [5, 6], y: [0, 1], elements: [8, 8]}}, ");
+  insert("{on: b, material: m", "{on: a, material: m, element: plane_strain, formulation: full}, ");
+  EXPECT_THAT(warnings_of(text),
+              Contains(AllOf(HasSubstr("section 'b'"), HasSubstr("work done on cells that flow"))));
+}
+
 TEST(Locking, UniformFlowDoesNotLock) {
   EXPECT_THAT(warnings_of(metal(", formulation: full",
                                 "{on: b.bottom, uy: 0}, {on: b.left, ux: 0}, {on: punch, uy: "
