@@ -195,6 +195,17 @@ const Eigen::MatrixXd& extrapolation_of(const Section<3>& section, CellType type
   return all[static_cast<std::size_t>(type) - static_cast<std::size_t>(tet4)];
 }
 
+/// Whether nothing strains a cell whose material has neither a past nor a stress of its own.
+template <int Dim>
+bool is_at_rest(const Section<Dim>& section, const Coordinates<Dim>& displacement,
+                const material::Memory& memory) {
+  if (!displacement.isZero(0) || memory.committed || memory.next || memory.expansion ||
+      memory.initial || memory.temperature)
+    return false;
+  const auto at_once = point_response(section, Vec<components<Dim>>::Zero(), memory);
+  return at_once.ok && at_once.stress.isZero(0);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -225,11 +236,14 @@ CellStress<Dim> stress_at_points(const Section<Dim>& section, CellType type,
   }
   const Rule<Dim>& rule = rule_of(section, type);
   Seen<Dim> seen;
+  const bool rests = is_at_rest(section, displacement, remembered);
   const bool reduced = section.formulation == Formulation::reduced,
              one = reduced && type == corner_cell<Dim>,
              plain = section.formulation == Formulation::full ||
                      section.formulation == Formulation::beam;
-  if (one)
+  if (rests)
+    seen.status = Status::ok;
+  else if (one)
     see_one_point(section, reference, displacement, seen);
   else if (reduced || plain)
     see_full(section, type, reference, displacement, seen);
@@ -253,7 +267,7 @@ CellStress<Dim> stress_at_points(const Section<Dim>& section, CellType type,
     }
     p.stress.setZero();
     p.strain.setZero();
-    if (seen.status != Status::inverted && !fill_stress(section, seen, q, memory.at(q), p))
+    if (!rests && seen.status != Status::inverted && !fill_stress(section, seen, q, memory.at(q), p))
       out.status = Status::material_failed;
   }
   return out;
