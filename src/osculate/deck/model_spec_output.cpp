@@ -161,8 +161,8 @@ BoundKeys<S> solver_keys() {
            choice(
                "How the linear systems of the iterations are solved.",
                {word("auto", Linear::automatic,
-                     "direct; multigrid where factors would have more than 1500 entries for each "
-                     "unknown (compact bodies of more than 35 000 unknowns, that are not nearly "
+                     "direct; multigrid where factors would have more than 1000 entries for each "
+                     "unknown (compact bodies of more than 15 000 unknowns, that are not nearly "
                      "incompressible) or 3e8 in all, or would take more than the memory of the "
                      "machine"),
                 word("direct", Linear::direct, "by factors (MUMPS)"),

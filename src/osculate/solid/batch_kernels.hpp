@@ -153,7 +153,7 @@ template <int Dim>
 }
 
 template <int Dim>
-void linear_forces(const Batch<Dim>& batch, const Pack* numbers, const Pack* u, Pack* force) {
+[[gnu::flatten]] void linear_forces(const Batch<Dim>& batch, const Pack* numbers, const Pack* u, Pack* force) {
   constexpr int C = components<Dim>, M = Dim * mode_count<Dim>;
   const Kept<Dim> kept(numbers, 1 << Dim);
   Uniform<Dim> at;
@@ -253,7 +253,7 @@ inline void one_point_modes(const Batch<Dim>& batch, const std::array<double, 2>
                  moduli[1] * *kept.volume, on_mode, on_base);
 }
 template <int Dim>
-[[nodiscard]] bool one_point_forces(const Batch<Dim>& batch, const std::array<double, 2>& moduli,
+[[nodiscard, gnu::flatten]] bool one_point_forces(const Batch<Dim>& batch, const std::array<double, 2>& moduli,
                                     const Pack* numbers, const Pack* u, Pack* force) {
   const Kept<Dim> kept(numbers, 1 << Dim);
   Uniform<Dim> at;
@@ -290,7 +290,7 @@ template <int Dim>
 }
 
 template <int Dim>
-[[nodiscard]] bool simplex_forces(const Batch<Dim>& batch, const Pack* numbers, const Pack* u,
+[[nodiscard, gnu::flatten]] bool simplex_forces(const Batch<Dim>& batch, const Pack* numbers, const Pack* u,
                                   Pack* force) {
   const Kept<Dim> kept(numbers, Dim + 1);
   Matrix<Dim> h, work;
@@ -428,7 +428,7 @@ inline void clear(typename FinitePoints<Dim>::Slopes& work) {
 }
 
 template <bool Mean, int Dim>
-[[nodiscard]] bool points_forces(const material::Law& law, double depth, const Pack* numbers,
+[[nodiscard, gnu::flatten]] bool points_forces(const material::Law& law, double depth, const Pack* numbers,
                                  const Pack* u, Pack* force) {
   constexpr std::size_t Q = FinitePoints<Dim>::count;
   FinitePoints<Dim> cell;
