@@ -1,5 +1,6 @@
 #include "osculate/model/linear_cells.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 
 namespace osculate::model {
@@ -14,10 +15,25 @@ bool slides_freely(const BasicBulkSection<Dim>& section, Eigen::Index axis) {
     return true;
 }
 
-/// Whether the product with the stored matrix has the digits of its forces.
+/// Whether the forces are those of the displacements alone, and the product with the stored matrix
+/// has their digits.
 template <int Dim>
-bool keeps_digits(const BasicBulkSection<Dim>& section) {
-  return section.section.formulation != solid::Formulation::solid_shell;
+bool moves_alone(const BasicBulkSection<Dim>& section, const material::Memory& memory) {
+  return section.section.formulation != solid::Formulation::solid_shell && !memory.expansion &&
+         !memory.initial && !memory.origin;
+}
+
+/// Whether a cell is about as long in all directions, by the moments of its nodes: the stiffnesses
+/// of its modes are then within three or four digits of each other.
+template <int Dim>
+bool is_compact(const BasicModel<Dim>& model, const mesh::CellRef& cell) {
+  constexpr double most = 10;
+  const solid::Coordinates<Dim> x = reference_of(model, cell_nodes(model.mesh, cell).nodes);
+  const solid::Coordinates<Dim> from_middle = x.rowwise() - x.colwise().mean();
+  const Mat<Dim, Dim> moments = from_middle.transpose() * from_middle;
+  Eigen::SelfAdjointEigenSolver<Mat<Dim, Dim>> of;
+  of.computeDirect(moments, Eigen::EigenvaluesOnly);
+  return of.eigenvalues()[Dim - 1] < most * most * of.eigenvalues()[0];
 }
 
 }  // namespace
@@ -31,11 +47,17 @@ void LinearCells<Dim>::add(const BasicBulkSection<Dim>& section, cell::CellType 
 }
 
 template <int Dim>
-void LinearCells<Dim>::keep(std::size_t number, const BasicBulkBlock<Dim>& block) {
-  if (made_[number] || !block.ok) return;
-  const auto& tangent = block.result.tangent;
+bool LinearCells<Dim>::make(std::size_t number, const BasicModel<Dim>& model,
+                            const BasicBulkSection<Dim>& section, const mesh::CellRef& cell,
+                            const Eigen::VectorXd& u, const material::Memory& memory,
+                            BasicBulkBlock<Dim>& out) {
+  if (made_[number] != not_made) return true;
+  evaluate_cell(model, section, cell, u, memory, true, out);
+  if (!out.ok) return false;
+  const auto& tangent = out.result.tangent;
   std::copy_n(tangent.data(), tangent.size(), &values_[begin_[number]]);
-  made_[number] = 1;
+  made_[number] = is_compact(model, cell) ? compact : slender;
+  return true;
 }
 
 template <int Dim>
@@ -43,14 +65,16 @@ void LinearCells<Dim>::evaluate(std::size_t number, const BasicModel<Dim>& model
                                 const BasicBulkSection<Dim>& section, const mesh::CellRef& cell,
                                 const Eigen::VectorXd& u, const material::Memory& memory,
                                 bool with_tangent, BasicBulkBlock<Dim>& out) {
-  const bool known = kept(number) && made_[number];
-  evaluate_cell(model, section, cell, u, memory, with_tangent && !known, out);
-  if (!with_tangent || !kept(number)) return;
-  if (known)
-    out.result.tangent =
-        Eigen::Map<const Eigen::MatrixXd>(&values_[begin_[number]], out.dof_count, out.dof_count);
+  if (!kept(number)) {
+    evaluate_cell(model, section, cell, u, memory, with_tangent, out);
+    return;
+  }
+  if (!make(number, model, section, cell, u, memory, out)) return;
+  if (made_[number] == compact && moves_alone(section, memory))
+    multiply(number, model, section, cell, u, out);
   else
-    keep(number, out);
+    evaluate_cell(model, section, cell, u, memory, false, out);
+  if (with_tangent) out.result.tangent = matrix(number, out.dof_count);
 }
 
 template <int Dim>
@@ -58,16 +82,16 @@ void LinearCells<Dim>::force(std::size_t number, const BasicModel<Dim>& model,
                              const BasicBulkSection<Dim>& section, const mesh::CellRef& cell,
                              const Eigen::VectorXd& u, const material::Memory& memory,
                              BasicBulkBlock<Dim>& out) {
-  if (!kept(number) || !keeps_digits(section) || memory.expansion || memory.initial ||
-      memory.origin) {
+  if (!kept(number) || !moves_alone(section, memory))
     evaluate_cell(model, section, cell, u, memory, false, out);
-    return;
-  }
-  if (!made_[number]) {
-    evaluate_cell(model, section, cell, u, memory, true, out);
-    keep(number, out);
-    if (!made_[number]) return;
-  }
+  else if (make(number, model, section, cell, u, memory, out))
+    multiply(number, model, section, cell, u, out);
+}
+
+template <int Dim>
+void LinearCells<Dim>::multiply(std::size_t number, const BasicModel<Dim>& model,
+                                const BasicBulkSection<Dim>& section, const mesh::CellRef& cell,
+                                const Eigen::VectorXd& u, BasicBulkBlock<Dim>& out) const {
   set_dofs<Dim>(cell_nodes(model.mesh, cell).nodes, out);
   out.ok = true;
   using Displacement = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, Dim * solid::max_nodes<Dim>, 1>;
@@ -77,9 +101,7 @@ void LinearCells<Dim>::force(std::size_t number, const BasicModel<Dim>& model,
     const double common = slides_freely(section, axis) ? value(axis) : 0;
     for (int d = axis; d < out.dof_count; d += Dim) along[d] = value(d) - common;
   }
-  out.result.force.noalias() =
-      Eigen::Map<const Eigen::MatrixXd>(&values_[begin_[number]], out.dof_count, out.dof_count) *
-      along;
+  out.result.force.noalias() = matrix(number, out.dof_count) * along;
 }
 
 template class LinearCells<2>;

@@ -11,8 +11,8 @@ namespace osculate::model {
 /// linear law): made once, when the cell is first evaluated. What does not fit into `most_bytes` is
 /// evaluated anew each time, as are all other cells.
 ///
-/// Forces of implicit analyses are those of the cell's strains all the same: of a thin cell the
-/// stored matrix has no digits of bending left. Explicit ones take the product, but of
+/// Forces of implicit analyses are those of the strains all the same in thin cells, of whose
+/// bending the stored matrix has no digits left. Explicit ones take the product, but of
 /// solid-shells.
 ///
 /// Formula    f = K (u - u_0) , u_0 the displacement of the first node where the cell feels nothing
@@ -39,7 +39,7 @@ class LinearCells {
     }
     if (begin == begin_ && size == values_.size()) return;
     begin_ = std::move(begin);
-    made_.assign(length_.size(), 0);
+    made_.assign(length_.size(), not_made);
     values_ = std::vector<double>(size);
   }
   void reserve() {
@@ -61,10 +61,21 @@ class LinearCells {
 
  private:
   static constexpr std::size_t nowhere = static_cast<std::size_t>(-1);
-  void keep(std::size_t number, const BasicBulkBlock<Dim>& block);
+  enum Made : char { not_made, compact, slender };
+  /// Stores the matrix of a cell if that has not been done; false: the cell has no answer.
+  [[nodiscard]] bool make(std::size_t number, const BasicModel<Dim>& model,
+                          const BasicBulkSection<Dim>& section, const mesh::CellRef& cell,
+                          const Eigen::VectorXd& u, const material::Memory& memory,
+                          BasicBulkBlock<Dim>& out);
+  [[nodiscard]] Eigen::Map<const Eigen::MatrixXd> matrix(std::size_t number, int dofs) const {
+    return {&values_[begin_[number]], dofs, dofs};
+  }
+  void multiply(std::size_t number, const BasicModel<Dim>& model,
+                const BasicBulkSection<Dim>& section, const mesh::CellRef& cell,
+                const Eigen::VectorXd& u, BasicBulkBlock<Dim>& out) const;
   std::vector<std::uint32_t> length_;  ///< of a cell's matrix; 0: it has none
   std::vector<std::size_t> begin_;     ///< of a cell's matrix in `values_`
-  std::vector<char> made_;
+  std::vector<Made> made_;
   std::vector<double> values_;
 };
 

@@ -153,7 +153,8 @@ template <int Dim>
 }
 
 template <int Dim>
-[[gnu::flatten]] void linear_forces(const Batch<Dim>& batch, const Pack* numbers, const Pack* u, Pack* force) {
+[[gnu::flatten]] void linear_forces(const Batch<Dim>& batch, const Pack* numbers, const Pack* u,
+                                    Pack* force) {
   constexpr int C = components<Dim>, M = Dim * mode_count<Dim>;
   const Kept<Dim> kept(numbers, 1 << Dim);
   Uniform<Dim> at;
@@ -253,8 +254,9 @@ inline void one_point_modes(const Batch<Dim>& batch, const std::array<double, 2>
                  moduli[1] * *kept.volume, on_mode, on_base);
 }
 template <int Dim>
-[[nodiscard, gnu::flatten]] bool one_point_forces(const Batch<Dim>& batch, const std::array<double, 2>& moduli,
-                                    const Pack* numbers, const Pack* u, Pack* force) {
+[[nodiscard, gnu::flatten]] bool one_point_forces(const Batch<Dim>& batch,
+                                                  const std::array<double, 2>& moduli,
+                                                  const Pack* numbers, const Pack* u, Pack* force) {
   const Kept<Dim> kept(numbers, 1 << Dim);
   Uniform<Dim> at;
   measure(kept, u, at);
@@ -290,8 +292,8 @@ template <int Dim>
 }
 
 template <int Dim>
-[[nodiscard, gnu::flatten]] bool simplex_forces(const Batch<Dim>& batch, const Pack* numbers, const Pack* u,
-                                  Pack* force) {
+[[nodiscard, gnu::flatten]] bool simplex_forces(const Batch<Dim>& batch, const Pack* numbers,
+                                                const Pack* u, Pack* force) {
   const Kept<Dim> kept(numbers, Dim + 1);
   Matrix<Dim> h, work;
   mean_gradient<Dim, Dim + 1>(kept.gradient, u, h);
@@ -428,8 +430,8 @@ inline void clear(typename FinitePoints<Dim>::Slopes& work) {
 }
 
 template <bool Mean, int Dim>
-[[nodiscard, gnu::flatten]] bool points_forces(const material::Law& law, double depth, const Pack* numbers,
-                                 const Pack* u, Pack* force) {
+[[nodiscard, gnu::flatten]] bool points_forces(const material::Law& law, double depth,
+                                               const Pack* numbers, const Pack* u, Pack* force) {
   constexpr std::size_t Q = FinitePoints<Dim>::count;
   FinitePoints<Dim> cell;
   if (!set_finite_points<Mean>(depth, numbers, u, cell) ||

@@ -267,7 +267,8 @@ CellStress<Dim> stress_at_points(const Section<Dim>& section, CellType type,
     }
     p.stress.setZero();
     p.strain.setZero();
-    if (!rests && seen.status != Status::inverted && !fill_stress(section, seen, q, memory.at(q), p))
+    if (!rests && seen.status != Status::inverted &&
+        !fill_stress(section, seen, q, memory.at(q), p))
       out.status = Status::material_failed;
   }
   return out;
