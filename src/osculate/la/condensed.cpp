@@ -162,11 +162,13 @@ bool Condensed::Impl::accurate() {
 
 /// False: Mumps is to do it.
 bool Condensed::Impl::condense(const SparseMatrix& k, FactorReport& report) {
+  const int before = inside.count();
   if (!inside.factor(k)) return false;
   if (!dense->factor(small_matrix(k), symmetric)) return false;
   matrix = k;
   if (!accurate()) return false;
   report = {};
+  report.whole = inside.count() > before;
   report.negative_pivots = inside.negative_pivots();
   report.factor_entries =
       inside.factor_entries() + static_cast<std::int64_t>(changing.size() * changing.size());

@@ -314,7 +314,11 @@ FactorReport Iterative::factor(const SparseMatrix& k, std::uint64_t pattern_vers
   const bool again = s.refresh(k);
   s.by_multigrid = false;
   s.by_multigrid = again || s.build(compressed(k, symmetry));
-  if (s.by_multigrid) return {};
+  if (s.by_multigrid) {
+    FactorReport report;
+    report.whole = false;
+    return report;
+  }
   ++s.work.given_up;
   s.refused = true;
   return s.factor_directly(k);

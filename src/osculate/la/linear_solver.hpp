@@ -41,6 +41,9 @@ struct FactorReport {
   /// correct the solution by its residual.
   Eigen::VectorXd weakest{};
   std::int64_t factor_entries = 0;
+  /// False: only what may change was factored. The rest had been eliminated before, or is iterated
+  /// on.
+  bool whole = true;
   double operations = 0;  ///< of the factorisation, where it is worth to do without it; else 0
 };
 

@@ -16,6 +16,7 @@ struct SchurFactors::Impl {
   DMUMPS_STRUC_C id{};
   int blas_threads;
   bool open = false, analysed = false, factored = false;
+  int count = 0;
   Symmetry symmetry = Symmetry::unsymmetric;
   Index n = -1;
   int slack_percent = 30;
@@ -153,6 +154,7 @@ bool SchurFactors::analyse(const SparseMatrix& k, Symmetry symmetry, std::span<c
   return s.analysed;
 }
 
+int SchurFactors::count() const { return impl_->count; }
 bool SchurFactors::holds_factors() const { return impl_->factored; }
 
 void SchurFactors::forget() {
@@ -198,6 +200,7 @@ bool SchurFactors::factor(const SparseMatrix& k) {
     if (!short_of_space || s.slack_percent > most) break;
   }
   s.factored = s.id.infog[0] >= 0;
+  ++s.count;
   return s.factored;
 }
 

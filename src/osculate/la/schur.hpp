@@ -30,6 +30,8 @@ class SchurFactors {
   [[nodiscard]] double operations() const;
   /// Factors where the values are others than before. False: singular, or no room.
   bool factor(const SparseMatrix& k);
+  /// How often it did.
+  [[nodiscard]] int count() const;
   [[nodiscard]] bool holds_factors() const;
   /// Gives the memory back.
   void forget();

@@ -48,8 +48,8 @@ void fields(Archive& a, StateCounts& counts) {
 }
 template <class Archive>
 void fields(Archive& a, IterationRecord& record) {
-  auto& [residual, energy, step, factored, counts] = record;
-  a(residual, energy, step, factored, counts);
+  auto& [residual, energy, step, factored, whole, counts] = record;
+  a(residual, energy, step, factored, whole, counts);
 }
 template <class Archive>
 void fields(Archive& a, TimeSteps& steps) {
@@ -185,7 +185,7 @@ void fields(Archive& a, JournalEntry& e) {
 
 namespace {
 
-constexpr int version = 13;
+constexpr int version = 14;
 
 template <class... T>
 std::string saved(const T&... values) {

@@ -29,9 +29,11 @@ std::string counts_column(const char* gap, const solve::StateCounts& counts, Poi
 
 /// Empty where every iteration had its own.
 std::string factorisations_text(const std::vector<solve::IterationRecord>& iterations) {
-  const auto count = std::ranges::count_if(iterations, &solve::IterationRecord::factored);
-  if (count == std::ssize(iterations)) return {};
-  return fmt::format("  ({} factorisations)", count);
+  const solve::Factorisations count = solve::count_factorisations(iterations);
+  if (count.whole == std::ssize(iterations)) return {};
+  const std::string of_contact =
+      count.of_contact > 0 ? fmt::format(", {} of contact alone", count.of_contact) : "";
+  return fmt::format("  ({} factorisations{})", count.whole, of_contact);
 }
 
 }  // namespace

@@ -43,12 +43,13 @@ nlohmann::json increment_json(double step_time, const solve::IncrementRecord& re
     time_step = {{"length", number(record.time_step.length)},
                  {"error", number(record.time_step.error)},
                  {"refused", record.time_step.refused}};
+  const solve::Factorisations factorisations = solve::count_factorisations(record.iterations);
   nlohmann::json condition = nullptr;
   if (record.precision.condition > 0) condition = number(record.precision.condition);
   return {{"time", step_time + record.fraction},
           {"iterations", record.iterations.size()},
-          {"factorisations",
-           std::ranges::count_if(record.iterations, &solve::IterationRecord::factored)},
+          {"factorisations", factorisations.whole},
+          {"factorisations_of_contact", factorisations.of_contact},
           {"residual", number(last.residual)},
           {"energy", number(last.energy)},
           {"cutbacks", record.cutbacks},

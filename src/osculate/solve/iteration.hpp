@@ -90,8 +90,21 @@ struct IterationRecord {
   double energy = 0;     ///< relative to the first iteration
   double step = 1;       ///< line search factor
   bool factored = true;  ///< else the factors of a former iteration served
+  bool whole = true;     ///< else no more was factored than the unknowns of contact
   StateCounts counts;
 };
+
+/// Of all unknowns, and of those of contact alone.
+struct Factorisations {
+  std::ptrdiff_t whole = 0, of_contact = 0;
+};
+[[nodiscard]] inline Factorisations count_factorisations(
+    const std::vector<IterationRecord>& iterations) {
+  Factorisations count;
+  for (const IterationRecord& record : iterations)
+    if (record.factored) ++(record.whole ? count.whole : count.of_contact);
+  return count;
+}
 
 /// Where digits were lost.
 struct Precision {
@@ -127,6 +140,7 @@ struct NewtonResult {
   double first_residual = 0, first_energy = 0;
   la::SolveStatus linear = la::SolveStatus::ok;
   Index bad_row = -1;
+  bool whole_factors = true;  ///< of the last factorisation: la::FactorReport
   Precision precision{};
 };
 

@@ -212,6 +212,7 @@ bool conclude(Judge& judge, const Eigen::VectorXd& du, double step, double energ
   IterationRecord record;
   record.step = step;
   record.factored = former.fresh();
+  record.whole = result.whole_factors;
   const double size = e.residual.norm();
   record.residual = relative_residual(result);
   record.energy = relative(by_residual ? energy_after : energy_before, judge.first_energy);

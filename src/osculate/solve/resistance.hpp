@@ -58,6 +58,7 @@ bool factor_tangent(S& system, la::LinearSolver& solver, NewtonResult<typename S
     if (report.status == la::SolveStatus::singular && system.soften())
       report = solver.factor(system.matrix(), system.pattern_version(), system.symmetry());
   result.linear = report.status;
+  result.whole_factors = report.whole;
   result.bad_row = report.bad_row;
   if (report.status == la::SolveStatus::singular)
     return fail(result, Outcome::numerical_failure, "the tangent is singular");

@@ -66,6 +66,17 @@ TEST(Condensed, SolvesLikeMumpsWhateverCloses) {
     }
 }
 
+TEST(Condensed, SaysWhatItFactored) {
+  Condensed solver;
+  solver.may_change(lowest());
+  for (const int closed : {0, 3, width}) {
+    MatrixBuilder m = in_contact(closed, 1e4, 0.0);
+    const FactorReport report =
+        solver.factor(m.finish(), m.pattern_version(), Symmetry::positive_definite);
+    EXPECT_EQ(report.whole, closed == 0);
+  }
+}
+
 TEST(Condensed, BitsDependOnTheMatrixAlone) {
   for (const Symmetry kind : {Symmetry::unsymmetric, Symmetry::indefinite}) {
     MatrixBuilder m = in_contact(9, 1e6, kind == Symmetry::unsymmetric ? 0.2 : 0.0);
