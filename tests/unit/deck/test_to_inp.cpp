@@ -189,8 +189,9 @@ TEST(ToInp, BodiesThatChangeAreWrittenToo) {
 }
 
 TEST(ToInp, WhatHasNoCounterpartIsRefusedByItsKey) {
-  EXPECT_THAT(refusal("normal: {penalty: 1e4}", "two_pass: true, normal: {penalty: 1e4}"),
-              HasSubstr("model.yaml:13: contact[0].two_pass: has no counterpart"));
+  EXPECT_THAT(refusal("normal: {penalty: 1e4}",
+                      "two_pass: true, sampling: {gauss: 3}, normal: {penalty: 1e4}"),
+              HasSubstr("model.yaml:13: contact[0].sampling.gauss: has no counterpart"));
   EXPECT_THAT(
       refusal("normal: {penalty: 1e4}", "enforcement: augmented_lagrange, normal: {penalty: 1e4}"),
       HasSubstr("contact[0].enforcement: has no counterpart"));
@@ -203,8 +204,9 @@ TEST(ToInp, WhatHasNoCounterpartIsRefusedByItsKey) {
                       "sections:\n"),
               HasSubstr("rigid.r.plane"));
   EXPECT_THAT(refusal("{on: high.left, uy: 0}]",
-                      "{on: high.left, uy: 0}]\n    traction: [{on: high.top, tz: 1}]"),
-              HasSubstr("steps[0].traction"));
+                      "{on: high.left, uy: 0}]\n    traction: [{on: high.top, tz: 1, amplitude: "
+                      "there_and_back}]"),
+              HasSubstr("a traction with an amplitude is written of the last step alone"));
   EXPECT_THAT(
       refusal("pressure: [{on: low.right, value: 3}]",
               "forces: [{on: high.top, fy: 1}]\n    pressure: [{on: low.right, value: 3}]"),
@@ -599,6 +601,30 @@ TEST(ToInp, PartsOfSectionsAndGaps) {
   const Description after = parse_model(translate_deck(text, "model.inp").root, "model.inp");
   ASSERT_EQ(after.springs.size(), 1U);
   EXPECT_EQ(after.springs[0].gap->clearance, 0.1);
+}
+
+TEST(ToInp, SidesThatAreSlavesInTurnAndDecayingFriction) {
+  std::string text;
+  const Contact again = pair_again(
+      "two_pass: true, normal: {penalty: 1e4}, friction: {coulomb: {mu: 0.3, kinetic: 0.1, decay: "
+      "{speed: 4}}}",
+      text);
+  EXPECT_THAT(text, HasSubstr("*FRICTION, EXPONENTIAL DECAY\n0.3, 0.1, 0.25\n"));
+  EXPECT_THAT(text, HasSubstr("*CONTACT\n*CONTACT INCLUSIONS\nhigh.bottom, low.top\n"
+                              "*CONTACT PROPERTY ASSIGNMENT\nhigh.bottom, low.top, law_of_c\n"));
+  EXPECT_TRUE(again.two_pass.has_value());
+  EXPECT_EQ(again.slave.value, "high.bottom");
+  EXPECT_THAT(text, Not(HasSubstr("*CONTACT PAIR")));
+}
+
+TEST(ToInp, TractionsGoThereAndBack) {
+  const std::string text = written(edited(
+      blocks, "pressure: [{on: low.right, value: 3}]",
+      "pressure: [{on: low.right, value: 3}]\n    traction: [{on: high.right, ty: 3, tz: 4}]"));
+  EXPECT_THAT(text, HasSubstr("*DSLOAD, FOLLOWER=NO, CONSTANT RESULTANT=YES\nhigh.right, TRVEC, 5, "
+                              "0, 0.6, 0.8\n"));
+  const Description after = parse_model(translate_deck(text, "model.inp").root, "model.inp");
+  EXPECT_NEAR(after.steps[0].traction.at(0).values[1]->value, 3, 1e-15);
 }
 
 }  // namespace
