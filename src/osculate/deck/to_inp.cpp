@@ -68,11 +68,59 @@ bool has_cells(const model::BasicModel<Dim>& m, const Wanted& wanted) {
   });
 }
 
+/// What CalculiX does not know of a deck, and what was left out.
+template <int Dim>
+std::vector<std::string> notes_of(const Description& d, const model::BasicModel<Dim>& m,
+                                  const InpMesh<Dim>& mesh) {
+  std::vector<std::string> notes;
+  const bool asked = !d.output.frd.empty() || !d.output.dat.empty();
+  notes.push_back(
+      asked ? "tolerances and other results than frd and dat (solver, output) are left out"
+            : "tolerances and results (solver, output) are left out: displacements, forces and "
+              "stresses are asked for");
+  if (has_cells(m, [](solid::Formulation formulation, cell::CellType) {
+        return formulation == solid::Formulation::bbar ||
+               (Dim == 2 && formulation == solid::Formulation::enhanced);
+      }))
+    notes.push_back(
+        "CalculiX has no elements with mean dilatation (C3D8H, C3D20H, CPE4H, ...) and no plane "
+        "ones with enhanced strains (CPE4I, ...): Osculate and Abaqus read them; `formulation: "
+        "full` is "
+        "CPE4");
+  if (std::ranges::any_of(d.coupling, [&](const Coupling& one) {
+        return one.is_mean() && mesh.set(one.on).cells.empty();
+      }))
+    notes.push_back(
+        "CalculiX has *DISTRIBUTING of surfaces of elements alone, not of nodes: Osculate and "
+        "Abaqus read it");
+  if (std::ranges::any_of(d.materials, [](const Material& material) {
+        return material::key_of(material.law.value) == material::UserMaterial::key;
+      }))
+    notes.push_back(
+        "the library of `user` materials is that of the environment variable "
+        "OSCULATE_USER_MATERIAL when the input file is run");
+  for (const auto& pair : m.pairs)
+    if (pair.definition.overlap == pairing::InitialOverlap::given &&
+        pairing::sampled_at_nodes(pair.definition.slave))
+      notes.push_back(fmt::format(
+          "CalculiX passes over *CLEARANCE with NODE TO SURFACE: there contact '{}' has the gaps "
+          "of the mesh; with Gauss points (`sampling`) it is SURFACE TO SURFACE, which knows it",
+          pair.name));
+  if (has_cells(m, [](solid::Formulation formulation, cell::CellType type) {
+        return type == cell::CellType::wedge6 && formulation == solid::Formulation::full;
+      }))
+    notes.push_back(
+        "C3D6 has two points here as in CalculiX: `formulation: reduced` of wedge6 cells; those of "
+        "this model have more of them");
+  return notes;
+}
+
 template <int Dim>
 WrittenDeck deck_of(const Description& d, const BasicBuilt<Dim>& built) {
   WrittenDeck deck;
   Leaves leaves(d);
   for (const char* const said : {"osculate", "mesh", "sets", "parameters"}) leaves.take(said);
+  if (d.ties.empty()) leaves.take("ties");
   std::vector<Cut> cuts;
   for (const Pretension& one : d.pretension) cuts.push_back(cut_of(one, built.model.mesh));
   std::optional<model::BasicModel<Dim>> whole;
@@ -91,40 +139,7 @@ WrittenDeck deck_of(const Description& d, const BasicBuilt<Dim>& built) {
   const std::string title = d.title.empty() ? "A model file of Osculate" : d.title;
   deck.text = fmt::format("*HEADING\n{}\n", title) + mesh.cells() + mesh.sets() + model + steps;
   mesh.require_same(deck.text);
-  const bool asked = !d.output.frd.empty() || !d.output.dat.empty();
-  deck.notes.push_back(
-      asked ? "tolerances and other results than frd and dat (solver, output) are left out"
-            : "tolerances and results (solver, output) are left out: displacements, forces and "
-              "stresses are asked for");
-  if (has_cells(built.model, [](solid::Formulation formulation, cell::CellType) {
-        return formulation == solid::Formulation::bbar ||
-               (Dim == 2 && formulation == solid::Formulation::enhanced);
-      }))
-    deck.notes.push_back(
-        "CalculiX has no elements with mean dilatation (C3D8H, C3D20H, CPE4H, ...) and no plane "
-        "ones with "
-        "enhanced strains (CPE4I, ...): Osculate and Abaqus read them; `formulation: full` is "
-        "CPE4");
-  if (std::ranges::any_of(d.materials, [](const Material& material) {
-        return material::key_of(material.law.value) == material::UserMaterial::key;
-      }))
-    deck.notes.push_back(
-        "the library of `user` materials is that of the environment variable "
-        "OSCULATE_USER_MATERIAL when the input file is run");
-  for (const auto& pair : built.model.pairs)
-    if (pair.definition.overlap == pairing::InitialOverlap::given &&
-        pairing::sampled_at_nodes(pair.definition.slave))
-      deck.notes.push_back(fmt::format(
-          "CalculiX passes over *CLEARANCE with NODE TO SURFACE: there contact '{}' has the gaps "
-          "of "
-          "the mesh; with Gauss points (`sampling`) it is SURFACE TO SURFACE, which knows it",
-          pair.name));
-  if (has_cells(built.model, [](solid::Formulation formulation, cell::CellType type) {
-        return type == cell::CellType::wedge6 && formulation == solid::Formulation::full;
-      }))
-    deck.notes.push_back(
-        "C3D6 has two points here as in CalculiX: `formulation: reduced` of wedge6 cells; those of "
-        "this model have more of them");
+  deck.notes = notes_of(d, m, mesh);
   return deck;
 }
 

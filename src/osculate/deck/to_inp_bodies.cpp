@@ -8,6 +8,12 @@
 namespace osculate::deck {
 namespace {
 
+/// CalculiX takes a number without a point for a direction.
+std::string with_point(double value) {
+  const std::string text = exact(value);
+  return text.find_first_of(".e") == std::string::npos ? text + "." : text;
+}
+
 /// The only node of a set.
 template <int Dim>
 std::int64_t only_node_of(const Name& on, InpMesh<Dim>& mesh) {
@@ -94,14 +100,15 @@ void write_spring(const Spring& spring, std::size_t number, InpMesh<Dim>& mesh, 
                                            fmt::format("spring_{}", number), ends.nodes, mesh, out);
     out += fmt::format("*SPRING, ELSET={}{}\n{}", name, spring.stiffness ? "" : ", NONLINEAR",
                        ends.directions);
-    if (spring.stiffness) out += exact(spring.stiffness->value) + "\n";
+    if (spring.stiffness) out += with_point(spring.stiffness->value) + "\n";
     for (const Vec2& point : spring.table.value)
-      out += fmt::format("{}, {}\n", exact(point[1]), exact(point[0]));
+      out += fmt::format("{}, {}\n", with_point(point[1]), with_point(point[0]));
   }
   if (spring.damping == 0) return;
   const std::string name = write_element(("DASHPOT" + ends.type).c_str(),
                                          fmt::format("damper_{}", number), ends.nodes, mesh, out);
-  out += fmt::format("*DASHPOT, ELSET={}\n{}{}\n", name, ends.directions, exact(spring.damping));
+  out +=
+      fmt::format("*DASHPOT, ELSET={}\n{}{}\n", name, ends.directions, with_point(spring.damping));
 }
 
 /// Two points of axes, in space.

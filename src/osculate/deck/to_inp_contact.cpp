@@ -255,7 +255,8 @@ void write_pair(const Description& d, const model::BasicModel<Dim>& m, std::size
                 InpMesh<Dim>& mesh, Leaves& leaves, std::string& out) {
   const Contact& contact = d.contact[k];
   const std::string path = path_of(d, k);
-  for (const char* const key : {".name", ".master", ".slave"}) (void)leaves.text(path + key);
+  for (const char* const key : {".name", ".master", ".slave", ".two_pass"})
+    (void)leaves.text(path + key);
   const PairType type = type_of_pair(contact, m, mesh, path, leaves);
   const std::string slave = mesh.surface(contact.slave, type.of_nodes),
                     master = mesh.surface(contact.master);

@@ -227,10 +227,6 @@ const io::inp::ElementType* GivenMesh::element(std::int64_t number) const {
   return found == elements_.end() ? nullptr : found->second;
 }
 
-bool GivenMesh::has_shells() const {
-  return !std::ranges::all_of(mesh_.mesh.expanded, &mesh::Expanded::follows);
-}
-
 void GivenMesh::require_same(const io::inp::DeckMesh& other) const {
   const auto same_knot = [](const io::inp::DeckKnot& a, const io::inp::DeckKnot& b) {
     return a.node == b.node && a.set == b.set;

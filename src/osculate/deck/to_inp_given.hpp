@@ -47,7 +47,6 @@ class GivenMesh {
   [[nodiscard]] bool has_node(std::int64_t number) const { return nodes_.contains(number); }
   /// Axisymmetric elements are sectors, beside which a 180th of the deck's forces acts.
   [[nodiscard]] bool sectors() const { return mesh_.sectors; }
-  [[nodiscard]] bool has_shells() const;
 
   /// The sections of a deck that was written.
   ///

@@ -33,7 +33,7 @@ class LoadWriter {
       : d_(d), mesh_(mesh), leaves_(leaves) {}
 
   std::string all_loads(const Step& step) {
-    return loads(step.forces, "*CLOAD", forces_, true) + pressures(step) + tractions(step) +
+    return loads(node_forces(step), "*CLOAD", forces_, true) + pressures(step) + tractions(step) +
            distributed(step) + loads(step.temperature, "*TEMPERATURE", temperatures_, false);
   }
 
@@ -170,31 +170,56 @@ class LoadWriter {
     return out;
   }
 
-  /// Along fixed directions, per undeformed area: one of each component.
+  /// The forces of a step and those in total, each with as many as it has nodes: as they are given.
+  const std::vector<Load>& node_forces(const Step& step) {
+    std::vector<Load>& all = kept_.emplace_back(step.forces);
+    for (const Load& total : step.total_force)
+      if (is_of_nodes(total))
+        all.push_back(over(total, static_cast<double>(mesh_.set(total.on).nodes.size())));
+    return all;
+  }
+  /// Tractions, and forces in total over the facets that they are shared out over by their area.
+  const std::vector<Load>& surface_forces(const Step& step) {
+    std::vector<Load>& all = kept_.emplace_back(step.traction);
+    for (const Load& total : step.total_force)
+      if (!is_of_nodes(total)) all.push_back(over(total, mesh_.area(total.on)));
+    return all;
+  }
+  bool is_of_nodes(const Load& total) const {
+    const mesh::Set& set = mesh_.set(total.on);
+    return set.cells.empty() || set.dimension < Dim - 1;
+  }
+  static Load over(Load load, double parts) {
+    for (auto& value : load.values)
+      if (value) value->value /= parts;
+    return load;
+  }
+
+  /// Along fixed directions, per undeformed area: once of each set.
   std::string tractions(const Step& step) {
     std::string out;
-    for (const Load& load : step.traction) {
+    for (const auto& [key, value] : tractions_)
+      if (value.load && stops(*value.load) && !search_)
+        throw core::InputError(value.load->mark,
+                               "a traction that has a table, or acts in a step in which loads act "
+                               "at once, is written of the last step alone");
+    for (const Load& load : surface_forces(step)) {
       Vec3 t = Vec3::Zero();
       for (Eigen::Index k = 0; k < 3; ++k)
         if (const auto& value = load.values[static_cast<std::size_t>(k)]) t[k] = value->value;
       const std::string& on = mesh_.surface(load.on);
       named_.try_emplace(on, load.on);
       require_apart(load.on, {on, 0}, tractions_, {});
-      const double size = t.norm();
-      if (tractions_.contains({on, 0}) || at_once_ || !(size > 0))
-        throw core::InputError(load.mark,
-                               "a traction is written of one step, in which loads grow, and stays");
+      double size = t.norm();
+      if (tractions_.contains({on, 0}) || !(size > 0))
+        throw core::InputError(load.mark, "one traction of a set is written, in one step");
       tractions_[{on, 0}] = {&load, size * end_of(load)};
       t /= size;
+      const std::string table = ramp(load, 0, size);
       out +=
           fmt::format("*DSLOAD, FOLLOWER=NO, CONSTANT RESULTANT=YES{}\n{}, TRVEC, {}, {}, {}, {}\n",
-                      amplitude(load), on, exact(size), exact(t[0]), exact(t[1]), exact(t[2]));
+                      table, on, exact(size), exact(t[0]), exact(t[1]), exact(t[2]));
     }
-    if (step.traction.empty())
-      for (const auto& [key, value] : tractions_)
-        if (value.load && value.load->amplitude && !search_)
-          throw core::InputError(value.load->mark,
-                                 "a traction with an amplitude is written of the last step alone");
     return out;
   }
 
@@ -245,7 +270,7 @@ class LoadWriter {
       Vec3 g = Vec3::Zero();
       for (std::size_t k = 0; k < step.gravity->value.size(); ++k)
         g[static_cast<Eigen::Index>(k)] = step.gravity->value[k];
-      Load& load = kept_.emplace_back();
+      Load& load = kept_.emplace_back(1).front();
       load.mark = step.gravity->mark;
       const bool at_once = std::exchange(at_once_, false);  // as gravity of a model file does
       std::set<std::string> done;
@@ -280,8 +305,8 @@ class LoadWriter {
 
   /// Real and imaginary parts, of which nothing stays.
   std::string swings(const Step& step) {
-    for (const auto* const other :
-         {&step.temperature, &step.centrifugal, &step.body_force, &step.traction})
+    for (const auto* const other : {&step.temperature, &step.centrifugal, &step.body_force,
+                                    &step.traction, &step.total_force})
       if (!other->empty())
         throw core::InputError(other->front().mark, "such loads that swing are not written");
     std::string out, first = fresh_swing_ ? "" : ", OP=NEW";
@@ -332,7 +357,7 @@ class LoadWriter {
   bool at_once_ = false, was_at_once_ = false, search_ = false, fresh_swing_ = true;
   std::set<std::string> written_;
   std::map<std::string, Name> named_;  ///< sets of the model file by their names in the deck
-  std::list<Load> kept_;               ///< gravity of the steps
+  std::list<std::vector<Load>> kept_;  ///< loads that no step has itself
   std::map<std::string, Vec3> gravity_;
   Standing forces_, pressures_, tractions_, spread_, temperatures_;
 };

@@ -117,6 +117,8 @@ class InpMesh {
   /// Fails where the deck that was written is not that of the mesh and its sections.
   void require_same(const std::string& text) const;
   [[nodiscard]] bool is_curved(const Name& surface) const;
+  /// Of a set of facets, undeformed.
+  [[nodiscard]] double area(const Name& surface) const;
   /// Of a rigid body by its name.
   [[nodiscard]] std::optional<ControlNodes> control(const std::string& rigid) const;
   /// The set whose nodes turn by the displacements of those of another one; none: these do not.

@@ -125,13 +125,6 @@ std::string words_of(const AnswerRequest& request, const Kind& kind) {
   return out;
 }
 
-/// Shells and beams as the deck has them, which it says, or the solids; of plane elements the first
-/// is what is done where nothing is said.
-std::string as_given(const Description& d, const GivenMesh& given) {
-  if (d.output.as_given) return ", OUTPUT=2D";
-  return given.has_shells() ? "" : ", OUTPUT=3D";
-}
-
 template <int Dim>
 std::string request_of(const AnswerRequest& request, bool file, const Description& d,
                        InpMesh<Dim>& mesh) {
@@ -155,7 +148,8 @@ std::string request_of(const AnswerRequest& request, bool file, const Descriptio
     if (of_cells && std::ranges::any_of(request.of, is_of_cells))
       on_cells = ", ELSET=" + mesh.elements(on);
   }
-  if (file && mesh.given()) end += as_given(d, *mesh.given());
+  // shells, beams and plane elements as the deck has them, or the solids
+  if (file && mesh.given()) end += d.output.as_given ? ", OUTPUT=2D" : ", OUTPUT=3D";
   const auto add = [&](const char* kind, const std::string& where, const std::string& words) {
     if (!words.empty())
       out += fmt::format("*{} {}{}{}\n{}\n", kind, file ? "FILE" : "PRINT", where, end, words);

@@ -26,9 +26,9 @@ class StepWriter : private LoadWriter<Dim> {
       for (const char* const key : {".name", ".increments", ".duration"})
         (void)leaves_.text(path + key);
       for (const char* const key :
-           {".prescribe", ".release", ".hold", ".forces", ".pressure", ".traction", ".temperature",
-            ".centrifugal", ".gravity", ".body_force", ".modes", ".buckling", ".dynamics", ".modal",
-            ".harmonic"})
+           {".prescribe", ".release", ".hold", ".forces", ".pressure", ".traction", ".total_force",
+            ".temperature", ".centrifugal", ".gravity", ".body_force", ".modes", ".buckling",
+            ".dynamics", ".modal", ".harmonic"})
         leaves_.take(path + key);
       steps += step(s);
     }

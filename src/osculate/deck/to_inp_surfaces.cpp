@@ -16,6 +16,24 @@ std::vector<Side<Dim>> InpMesh<Dim>::facets(const Name& on) const {
 }
 
 template <int Dim>
+double InpMesh<Dim>::area(const Name& surface) const {
+  if (set(surface).dimension != Dim - 1)
+    throw core::InputError(surface.mark,
+                           "a force in total is written of facets and of nodes, not of bodies");
+  double sum = 0;
+  for (const Side<Dim>& facet : facets(surface)) {
+    const auto section = section_of_.find({facet.parent.block, facet.parent.cell});
+    if (section == section_of_.end()) continue;  // refused by `surface`
+    const auto all = facet.nodes();
+    for (const double weight :
+         model::side_weights(m_, m_.sections[section->second].section, facet.type,
+                             std::span<const Index>(all.data(), all.size())))
+      sum += weight;
+  }
+  return sum;
+}
+
+template <int Dim>
 bool InpMesh<Dim>::is_curved(const Name& surface) const {
   return std::ranges::any_of(facets(surface),
                              [](const auto& f) { return cell::info(f.type).order > 1; });
@@ -152,11 +170,13 @@ const std::string& InpMesh<Dim>::surface_named(const Name& on) const {
   return nodes == names_.end() ? names_.at({'s', on.value}) : nodes->second;
 }
 
+template double InpMesh<2>::area(const Name&) const;
 template bool InpMesh<2>::is_curved(const Name&) const;
 template const std::string& InpMesh<2>::surface(const Name&, bool);
 template const std::string& InpMesh<2>::surface_ahead(const Name&, const Vec3&);
 template const std::string& InpMesh<2>::surface_of_cut(const Name&);
 template const std::string& InpMesh<2>::surface_named(const Name&) const;
+template double InpMesh<3>::area(const Name&) const;
 template bool InpMesh<3>::is_curved(const Name&) const;
 template const std::string& InpMesh<3>::surface(const Name&, bool);
 template const std::string& InpMesh<3>::surface_ahead(const Name&, const Vec3&);

@@ -206,7 +206,7 @@ TEST(ToInp, WhatHasNoCounterpartIsRefusedByItsKey) {
   EXPECT_THAT(refusal("{on: high.left, uy: 0}]",
                       "{on: high.left, uy: 0}]\n    traction: [{on: high.top, tz: 1, amplitude: "
                       "there_and_back}]"),
-              HasSubstr("a traction with an amplitude is written of the last step alone"));
+              HasSubstr("is written of the last step alone"));
   EXPECT_THAT(
       refusal("pressure: [{on: low.right, value: 3}]",
               "forces: [{on: high.top, fy: 1}]\n    pressure: [{on: low.right, value: 3}]"),
@@ -311,9 +311,9 @@ TEST(ToInp, WhatHoldsAndPullsNodes) {
   const std::string deck = written(text);
   EXPECT_THAT(deck, HasSubstr("*TRANSFORM, NSET=c.right, TYPE=R\n1, 1, 0, 0, 1, 0\n"));
   EXPECT_THAT(deck, HasSubstr("*ELEMENT, TYPE=SPRINGA, ELSET=spring_1\n9, 1, 27\n"
-                              "*SPRING, ELSET=spring_1\n\n5\n"));
-  EXPECT_THAT(deck, HasSubstr("*SPRING, ELSET=spring_2, NONLINEAR\n1\n-2, -1\n0, 0\n3, 1\n"));
-  EXPECT_THAT(deck, HasSubstr("*DASHPOT, ELSET=damper_3\n2, 2\n4\n"));
+                              "*SPRING, ELSET=spring_1\n\n5.\n"));
+  EXPECT_THAT(deck, HasSubstr("*SPRING, ELSET=spring_2, NONLINEAR\n1\n-2., -1.\n0., 0.\n3., 1.\n"));
+  EXPECT_THAT(deck, HasSubstr("*DASHPOT, ELSET=damper_3\n2, 2\n4.\n"));
   EXPECT_THAT(deck, HasSubstr("*MASS, ELSET=mass_1\n7\n"));
   EXPECT_THAT(deck, HasSubstr("*MPC\nPLANE, c.top\n"));
   EXPECT_THAT(deck,
@@ -401,9 +401,9 @@ TEST(ToInp, WhatADeckCannotSayOfTheNewKeys) {
                               "{stiffness: 5, tension: 1}, kinematics: small}]\n",
                               pressed)),
               HasSubstr("gaps of two nodes along a unit vector"));
-  EXPECT_THAT(refusal_of(cube(elastic, "",
-                              edited(pressed, "}]}", "}], total_force: [{on: c.top, fz: 1}]}"))),
-              HasSubstr("steps[0].total_force"));
+  EXPECT_THAT(
+      refusal_of(cube(elastic, "", edited(pressed, "}]}", "}], total_force: [{on: c, fz: 1}]}"))),
+      HasSubstr("written of facets and of nodes, not of bodies"));
   EXPECT_THAT(refusal_of(cube(elastic, "",
                               edited(pressed, "increments: 1",
                                      "dynamics: {scheme: {generalized_alpha: {radius: 0.8}}}, "
@@ -604,11 +604,13 @@ TEST(ToInp, PartsOfSectionsAndGaps) {
 }
 
 TEST(ToInp, SidesThatAreSlavesInTurnAndDecayingFriction) {
-  std::string text;
-  const Contact again = pair_again(
-      "two_pass: true, normal: {penalty: 1e4}, friction: {coulomb: {mu: 0.3, kinetic: 0.1, decay: "
-      "{speed: 4}}}",
-      text);
+  const std::string text = written(edited(
+      edited(blocks, "normal: {penalty: 1e4}, friction: {coulomb: {mu: 0.2, penalty: 5e3}}",
+             "two_pass: true, normal: {penalty: 1e4}, friction: {coulomb: {mu: 0.3, "
+             "kinetic: 0.1, decay: {speed: 4}}}"),
+      "  - name: free\n    increments: 1", "  - name: free\n    duration: 1\n    increments: 1"));
+  const Contact again =
+      parse_model(translate_deck(text, "model.inp").root, "model.inp").contact.at(0);
   EXPECT_THAT(text, HasSubstr("*FRICTION, EXPONENTIAL DECAY\n0.3, 0.1, 0.25\n"));
   EXPECT_THAT(text, HasSubstr("*CONTACT\n*CONTACT INCLUSIONS\nhigh.bottom, low.top\n"
                               "*CONTACT PROPERTY ASSIGNMENT\nhigh.bottom, low.top, law_of_c\n"));
@@ -625,6 +627,15 @@ TEST(ToInp, TractionsGoThereAndBack) {
                               "0, 0.6, 0.8\n"));
   const Description after = parse_model(translate_deck(text, "model.inp").root, "model.inp");
   EXPECT_NEAR(after.steps[0].traction.at(0).values[1]->value, 3, 1e-15);
+}
+
+TEST(ToInp, ForcesInTotalAreSharedOut) {
+  const std::string text = written(edited(
+      blocks, "pressure: [{on: low.right, value: 3}]",
+      "pressure: [{on: low.right, value: 3}]\n    total_force: [{on: low.front, fy: 3}, {on: "
+      "high.bottom_front, fx: 6}]"));
+  EXPECT_THAT(text, HasSubstr("\nlow.front, TRVEC, 1.5, 0, 1, 0\n"));  // over an area of 2
+  EXPECT_THAT(text, HasSubstr("*CLOAD\nhigh.bottom_front, 1, 3\n"));   // two nodes
 }
 
 }  // namespace

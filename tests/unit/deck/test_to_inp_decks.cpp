@@ -23,7 +23,8 @@ const std::string plates =
     "11, 5, 0, 0\n12, 6, 0, 0\n13, 6, 1, 0\n14, 5, 1, 0\n15, 5, 0, 1\n16, 6, 0, 1\n17, 6, 1, 1\n"
     "18, 5, 1, 1\n21, 9, 0, 0\n22, 10, 0, 0\n23, 11, 0, 0\n*ELEMENT, TYPE=S4R, ELSET=E\n"
     "1, 1, 2, 3, 4\n2, 2, 5, 6, 3\n*ELEMENT, TYPE=C3D8, ELSET=B\n3, 11, 12, 13, 14, 15, 16, 17, "
-    "18\n*ELEMENT, TYPE=B32R, ELSET=L\n4, 21, 22, 23\n*NSET, NSET=ENDS\n1, 4\n*MATERIAL, NAME=M\n"
+    "18\n*ELEMENT, TYPE=B32R, ELSET=L\n4, 21, 22, 23\n*NSET, NSET=ENDS\n1, 4\n*ELSET, "
+    "ELSET=ONE\n1\n*MATERIAL, NAME=M\n"
     "*ELASTIC\n1000., 0.3\n*DENSITY\n2.\n*SHELL SECTION, ELSET=E, MATERIAL=M, OFFSET=0.5\n0.1\n"
     "*SOLID SECTION, ELSET=B, MATERIAL=M\n*BEAM SECTION, ELSET=L, MATERIAL=M, SECTION=RECT\n0.1, "
     "0.2\n0, 0, 1\n*BOUNDARY\nENDS, 1, 6\n21, 1, 6\n11, 1, 3\n12, 2, 3\n14, 3\n*STEP\n*STATIC\n"
@@ -60,7 +61,7 @@ TEST_F(ToInpDecks, ElementsAreThoseOfTheDeck) {
   EXPECT_THAT(text, AllOf(HasSubstr("ENDS, 4, 4, 0\n"), HasSubstr("\n21, 6, 6, 0\n")));
   EXPECT_THAT(text, HasSubstr("*CLOAD\n23, 5, 0.2\n"));
   EXPECT_THAT(text, HasSubstr("TYPE=ELEMENT\n1, S1\n"));  // P of a shell pushes its lower side
-  EXPECT_THAT(text, HasSubstr("*DLOAD\nE, GRAV, 3, 0, 0, -1\n"));
+  EXPECT_THAT(text, HasSubstr("*DLOAD\nE, GRAV, 3, 0, 0, -3\n"));
   EXPECT_THAT(text, HasSubstr("*EL PRINT, ELSET=E\nS\n*END STEP"));
 }
 
@@ -70,6 +71,7 @@ TEST_F(ToInpDecks, ReadAgainItIsTheSameModel) {
     const Description before = description_of(deck);
     const std::string text = anew(before);
     const Description after = description_of(text);
+    const std::string again = anew(after);
     ASSERT_EQ(after.sections.size(), 3U);
     for (std::size_t s = 0; s < 3; ++s) {
       EXPECT_EQ(after.sections[s].on.value, before.sections[s].on.value);
@@ -77,7 +79,6 @@ TEST_F(ToInpDecks, ReadAgainItIsTheSameModel) {
     }
     EXPECT_EQ(after.rigid.size(), before.rigid.size());
     EXPECT_EQ(after.rigid.size(), finite ? 2U : 0U);  // the knots at nodes 2 and 3
-    EXPECT_EQ(anew(after), text);                     // and so on
     const auto sum = [](const Description& d) {
       double all = 0;
       for (const Load& load : d.steps[0].forces)
@@ -85,6 +86,7 @@ TEST_F(ToInpDecks, ReadAgainItIsTheSameModel) {
       return all;
     };
     EXPECT_NEAR(sum(after), sum(before), 1e-14);
+    EXPECT_EQ(anew(description_of(again)), again);  // and so on
   }
 }
 
@@ -99,7 +101,7 @@ TEST_F(ToInpDecks, WhatBecameOtherwiseIsRefused) {
   full.sections[0].formulation.value = Formulation::full;
   EXPECT_THAT(refusal_of(full), HasSubstr("'E' has another `formulation` or `kinematics`"));
   Description part = description_of(plates);
-  part.sections[0].on.value = "element 1";
+  part.sections[0].on.value = "ONE";
   EXPECT_THAT(refusal_of(part), HasSubstr("is no set of a section of the deck"));
 }
 
