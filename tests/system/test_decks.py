@@ -143,8 +143,9 @@ class Decks(unittest.TestCase):
                 for ours, again in zip(*found):
                     if ours.suffix == ".csv":
                         rows, others = (list(csv.reader(path.read_text().splitlines())) for path in (ours, again))
+                        largest = max(abs(float(row[1])) for row in rows[1:])  # beside rigid motions of frequency 0
                         for row, other in zip(rows[1:], others[1:], strict=True):
-                            self.assertAlmostEqual(float(row[1]) / (float(other[1]) or 1), 1, delta=1e-9)
+                            self.assertLessEqual(abs(float(row[1]) - float(other[1])), 1e-9 * largest)
                     elif ours.name.startswith("bodies"):
                         before, after = read_vtu(ours)["U"], read_vtu(again)["U"]
                         largest = max(abs(v) for row in before.values() for v in row)
@@ -155,7 +156,7 @@ class Decks(unittest.TestCase):
     @unittest.skipUnless(shutil.which("ccx") and CALCULIX.is_dir(), "CalculiX is not installed")
     def test_calculix_runs_a_deck_written_anew(self):
         """Its answers are those to its own deck."""
-        for name in ("aniso", "beamd", "beamhf", "beamnlmpc", "beampfix", "beamrb"):
+        for name in ("aniso", "beamd", "beamhf", "beamnlmpc", "beampfix", "beamrb", "pret2", "rot1", "solidshell1"):
             with self.subTest(name):
                 self.calculix_deck(name)
                 done = self.run_program("convert", f"{name}.inp", "-o", f"{name}_anew.inp")
