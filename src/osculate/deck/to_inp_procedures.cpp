@@ -230,6 +230,11 @@ std::string requests_of(const Description& d, const Step& step, InpMesh<Dim>& me
        {"*NODE FILE", "*EL FILE", "*CONTACT FILE", "*NODE PRINT", "*EL PRINT", "*CONTACT PRINT"})
     if (before.find(card) != std::string::npos && out.find(card) == std::string::npos)
       out += fmt::format("{}, FREQUENCY=0\n", card);
+  const std::size_t sums = before.find("*SECTION PRINT");
+  if (sums != std::string::npos && out.find("*SECTION PRINT") == std::string::npos) {
+    const std::string card = before.substr(sums, before.find('\n', sums) - sums);
+    out += card.substr(0, card.find(", FREQUENCY")) + ", FREQUENCY=0\n";
+  }
   return out;
 }
 

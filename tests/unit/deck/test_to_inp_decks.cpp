@@ -189,12 +189,16 @@ TEST_F(ToInpDecks, StressesOfPointsAndForcesThroughSections) {
 
 TEST_F(ToInpDecks, RequestsEndWhereALaterStepHasNone) {
   const std::string text =
-      anew(description_of(bolt +
-                          "*STEP\n*STATIC\n*NODE FILE\nU\n*NODE PRINT, NSET=TOP\nU, S\n*END STEP\n"
-                          "*STEP\n*STATIC\n*NODE FILE\n*END STEP\n"));
+      anew(description_of(
+          bolt + "*STEP\n*STATIC\n*NODE FILE\nU\n*NODE PRINT, NSET=TOP\nU, S\n"
+                 "*SECTION PRINT, SURFACE=END, NAME=END\nSOF\n*END STEP\n"
+                 "*STEP\n*STATIC\n*NODE FILE\n*SECTION PRINT, SURFACE=END, NAME=END, FREQUENCY=0\n"
+                 "*END STEP\n"));
   const std::size_t second = text.rfind("*STEP");
   EXPECT_THAT(text.substr(0, second), Not(HasSubstr("*EL PRINT")));  // of nodes there are none
   EXPECT_THAT(text.substr(second), HasSubstr("*NODE FILE, FREQUENCY=0\n"));
+  EXPECT_THAT(text.substr(second),
+              HasSubstr("*SECTION PRINT, SURFACE=END, NAME=END, FREQUENCY=0\n*END STEP"));
   EXPECT_THAT(text.substr(second), HasSubstr("*NODE PRINT, NSET=TOP\nU\n"));
 }
 
