@@ -634,8 +634,10 @@ TEST(ToInp, ForcesInTotalAreSharedOut) {
       blocks, "pressure: [{on: low.right, value: 3}]",
       "pressure: [{on: low.right, value: 3}]\n    total_force: [{on: low.front, fy: 3}, {on: "
       "high.bottom_front, fx: 6}]"));
-  EXPECT_THAT(text, HasSubstr("\nlow.front, TRVEC, 1.5, 0, 1, 0\n"));  // over an area of 2
-  EXPECT_THAT(text, HasSubstr("*CLOAD\nhigh.bottom_front, 1, 3\n"));   // two nodes
+  const Description after = parse_model(translate_deck(text, "model.inp").root, "model.inp");
+  EXPECT_EQ(after.steps[0].traction.at(0).on.value, "low.front");
+  EXPECT_NEAR(after.steps[0].traction[0].values[1]->value, 1.5, 1e-14);  // over an area of 2
+  EXPECT_THAT(text, HasSubstr("*CLOAD\nhigh.bottom_front, 1, 3\n"));     // two nodes
 }
 
 }  // namespace

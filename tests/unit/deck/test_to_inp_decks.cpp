@@ -190,7 +190,8 @@ TEST_F(ToInpDecks, StressesOfPointsAndForcesThroughSections) {
 TEST_F(ToInpDecks, RequestsEndWhereALaterStepHasNone) {
   const std::string text =
       anew(description_of(
-          bolt + "*STEP\n*STATIC\n*NODE FILE\nU\n*NODE PRINT, NSET=TOP\nU, S\n"
+          bolt + "*SURFACE, NAME=END\n2, S2\n*STEP\n*STATIC\n*NODE FILE\nU\n"
+                 "*NODE PRINT, NSET=TOP\nU, S\n"
                  "*SECTION PRINT, SURFACE=END, NAME=END\nSOF\n*END STEP\n"
                  "*STEP\n*STATIC\n*NODE FILE\n*SECTION PRINT, SURFACE=END, NAME=END, FREQUENCY=0\n"
                  "*END STEP\n"));
