@@ -8,6 +8,12 @@
 namespace osculate::deck {
 namespace {
 
+/// CalculiX takes a number without a point for a direction.
+std::string with_point(double value) {
+  const std::string text = exact(value);
+  return text.find_first_of(".e") == std::string::npos ? text + "." : text;
+}
+
 /// The only node of a set.
 template <int Dim>
 std::int64_t only_node_of(const Name& on, InpMesh<Dim>& mesh) {
@@ -47,12 +53,7 @@ SpringEnds ends_of(const Spring& spring, InpMesh<Dim>& mesh) {
   ends.type = terms.size() == 1 ? "1" : "2";
   ends.directions.clear();
   for (const EquationTerm& term : terms) {
-    std::int64_t node = 0;
-    int direction = static_cast<int>(term.of) + 1;
-    if (const auto control = mesh.control(term.on.value))
-      std::tie(node, direction) = control->of(term.of);
-    else
-      node = only_node_of(term.on, mesh);
+    const auto [node, direction] = mesh.only_node(term.on, term.of);
     ends.nodes.push_back(node);
     ends.directions += fmt::format("{}{}", ends.directions.empty() ? "" : ", ", direction);
   }
@@ -99,14 +100,15 @@ void write_spring(const Spring& spring, std::size_t number, InpMesh<Dim>& mesh, 
                                            fmt::format("spring_{}", number), ends.nodes, mesh, out);
     out += fmt::format("*SPRING, ELSET={}{}\n{}", name, spring.stiffness ? "" : ", NONLINEAR",
                        ends.directions);
-    if (spring.stiffness) out += exact(spring.stiffness->value) + "\n";
+    if (spring.stiffness) out += with_point(spring.stiffness->value) + "\n";
     for (const Vec2& point : spring.table.value)
-      out += fmt::format("{}, {}\n", exact(point[1]), exact(point[0]));
+      out += fmt::format("{}, {}\n", with_point(point[1]), with_point(point[0]));
   }
   if (spring.damping == 0) return;
   const std::string name = write_element(("DASHPOT" + ends.type).c_str(),
                                          fmt::format("damper_{}", number), ends.nodes, mesh, out);
-  out += fmt::format("*DASHPOT, ELSET={}\n{}{}\n", name, ends.directions, exact(spring.damping));
+  out +=
+      fmt::format("*DASHPOT, ELSET={}\n{}{}\n", name, ends.directions, with_point(spring.damping));
 }
 
 /// Two points of axes, in space.
@@ -178,20 +180,78 @@ void write_cyclic_symmetry(const Description& d, InpMesh<Dim>& mesh, Leaves& lea
   }
 }
 
+/// Whether a rigid body is a node alone, whose motion is that of others: of a coupling.
+bool is_of_coupling(const Description& d, const Rigid& rigid) {
+  return std::ranges::any_of(
+      d.coupling, [&](const Coupling& one) { return one.rigid.value == rigid.name.value; });
+}
+
 template <int Dim>
 void write_rigid(const Description& d, InpMesh<Dim>& mesh, Leaves& leaves, std::string& out) {
   for (const Rigid& rigid : d.rigid) {
     const auto* const shape = std::get_if<SetShape>(&rigid.shape);
     if (!shape) continue;  // its keys have no counterpart
     const std::string path = fmt::format("rigid.{}", rigid.name.value);
+    if (mesh.given() && mesh.given()->knot(shape->set.value)) {
+      leaves.take(path + ".set");
+      leaves.take(path + ".reference");
+      continue;
+    }
     for (const char* const key : {".set", ".reference", ".reference_node", ".rotation_node"})
       leaves.take(path + key);
+    if (is_of_coupling(d, rigid)) {
+      if (mesh.has_nodes_of_elements(shape->set))
+        throw core::InputError(rigid.name.mark,
+                               "an input file couples others to a body that is one node");
+      continue;
+    }
     const auto control = mesh.control(rigid.name.value);
     out += fmt::format("*RIGID BODY, NSET={}, REF NODE={}, ROT NODE={}\n",
                        mesh.nodes_of_body(*shape, rigid), control->reference, control->rotation);
   }
 }
 
+template <int Dim>
+void write_couplings(const Description& d, InpMesh<Dim>& mesh, Leaves& leaves, std::string& out) {
+  std::set<std::string> bodies;
+  for (std::size_t k = 0; k < d.coupling.size(); ++k) {
+    const Coupling& one = d.coupling[k];
+    leaves.take(fmt::format("coupling[{}].", k));
+    if (!bodies.insert(one.rigid.value).second)
+      throw core::InputError(one.mark, "several couplings of one body are not written");
+    out += mesh.write_control(one.rigid.value);
+    const std::string on = mesh.surface(one.on, mesh.set(one.on).cells.empty());
+    out += fmt::format("*COUPLING, CONSTRAINT NAME=coupling_{}, REF NODE={}, SURFACE={}\n", k + 1,
+                       mesh.control(one.rigid.value)->reference, on);
+    if (one.is_mean()) out += fmt::format("*DISTRIBUTING\n1, {}\n", Dim);
+    if (!one.is_mean()) out += "*KINEMATIC\n";
+    for (std::size_t i = 0; i < 3; ++i)
+      if (one.of[i]) out += fmt::format("{0}, {0}\n", i + 1);
+  }
+}
+
+/// The elements of the surface are those that the axis points to: out of them, positive shortens.
+template <int Dim>
+void write_pretension(const Description& d, const std::vector<Cut>& cuts, InpMesh<Dim>& mesh,
+                      Leaves& leaves, std::string& out) {
+  for (std::size_t k = 0; k < d.pretension.size(); ++k) {
+    const Pretension& one = d.pretension[k];
+    const Vec3 out_of = -cuts[k].axis;
+    leaves.take(fmt::format("pretension.{}.", one.name.value));
+    out += mesh.write_control(one.name.value);
+    const std::string on = mesh.surface_ahead(one.on, cuts[k].axis);
+    out += fmt::format("*PRE-TENSION SECTION, SURFACE={}, NODE={}\n{}, {}, {}\n", on,
+                       mesh.control(one.name.value)->reference, exact(out_of[0]), exact(out_of[1]),
+                       exact(out_of[2]));
+  }
+}
+
+template void write_couplings(const Description&, InpMesh<2>&, Leaves&, std::string&);
+template void write_couplings(const Description&, InpMesh<3>&, Leaves&, std::string&);
+template void write_pretension(const Description&, const std::vector<Cut>&, InpMesh<2>&, Leaves&,
+                               std::string&);
+template void write_pretension(const Description&, const std::vector<Cut>&, InpMesh<3>&, Leaves&,
+                               std::string&);
 template void write_springs(const Description&, InpMesh<2>&, Leaves&, std::string&);
 template void write_springs(const Description&, InpMesh<3>&, Leaves&, std::string&);
 template void write_masses(const Description&, InpMesh<2>&, Leaves&, std::string&);

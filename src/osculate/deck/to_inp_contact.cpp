@@ -58,6 +58,11 @@ WrittenShear written_shear(const std::string& path, Leaves& leaves) {
   if (leaves.text(path + ".rough") == "{}") return {"*FRICTION, ROUGH\n"};
   const auto mu = leaves.number(path + ".coulomb.mu");
   if (!mu) return {};
+  if (const auto kinetic = leaves.number(path + ".coulomb.kinetic"))
+    if (const auto speed = leaves.number(path + ".coulomb.decay.speed"))
+      return {fmt::format("*FRICTION, EXPONENTIAL DECAY\n{}, {}, {}\n", exact(*mu), exact(*kinetic),
+                          exact(1 / *speed)),
+              leaves.number(path + ".coulomb.viscous").value_or(0)};
   const auto slope = leaves.number(path + ".coulomb.penalty");
   return {fmt::format("*FRICTION\n{}{}\n", exact(*mu), slope ? ", " + exact(*slope) : ""),
           leaves.number(path + ".coulomb.viscous").value_or(0)};
@@ -223,12 +228,35 @@ void write_all(const Description& d, const Contact& contact, InpMesh<Dim>& mesh,
   out += fmt::format("*CONTACT PROPERTY ASSIGNMENT\n, , {}\n", law);
 }
 
+/// Pairs whose sides are slaves in turn, which general contact has alone; beside `all` they have an
+/// interaction of their own there.
+template <int Dim>
+void write_both_ways(const Description& d, InpMesh<Dim>& mesh, Leaves& leaves, std::string& out) {
+  const bool beside_all = d.contact.back().all;
+  std::string pairs, laws;
+  for (std::size_t k = 0; k < d.contact.size(); ++k) {
+    const Contact& contact = d.contact[k];
+    if (!contact.two_pass) continue;
+    const std::string path = path_of(d, k), law = law_name(contact.name.value);
+    for (const char* const key : {".name", ".master", ".slave", ".two_pass"})
+      (void)leaves.text(path + key);
+    out += written_laws(d, contact, path, law, leaves);
+    const std::string slave = mesh.surface(contact.slave), master = mesh.surface(contact.master);
+    pairs += fmt::format("{}, {}\n", slave, master);
+    laws += fmt::format("{}, {}, {}\n", slave, master, law);
+  }
+  if (pairs.empty()) return;
+  if (!beside_all) out += "*CONTACT\n*CONTACT INCLUSIONS\n" + pairs;
+  out += "*CONTACT PROPERTY ASSIGNMENT\n" + laws;
+}
+
 template <int Dim>
 void write_pair(const Description& d, const model::BasicModel<Dim>& m, std::size_t k,
                 InpMesh<Dim>& mesh, Leaves& leaves, std::string& out) {
   const Contact& contact = d.contact[k];
   const std::string path = path_of(d, k);
-  for (const char* const key : {".name", ".master", ".slave"}) (void)leaves.text(path + key);
+  for (const char* const key : {".name", ".master", ".slave", ".two_pass"})
+    (void)leaves.text(path + key);
   const PairType type = type_of_pair(contact, m, mesh, path, leaves);
   const std::string slave = mesh.surface(contact.slave, type.of_nodes),
                     master = mesh.surface(contact.master);
@@ -249,8 +277,9 @@ void write_contact(const Description& d, const model::BasicModel<Dim>& m, InpMes
   for (std::size_t k = 0; k < d.contact.size(); ++k)
     if (d.contact[k].all)
       write_all(d, d.contact[k], mesh, leaves, out);
-    else
+    else if (!d.contact[k].two_pass)
       write_pair(d, m, k, mesh, leaves, out);
+  if (!d.contact.empty()) write_both_ways(d, mesh, leaves, out);
 }
 
 template <int Dim>

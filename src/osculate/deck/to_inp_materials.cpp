@@ -5,6 +5,7 @@
 #include <span>
 
 #include "osculate/deck/to_inp_parts.hpp"
+#include "osculate/io/inp/cards.hpp"
 #include "osculate/material/law.hpp"
 
 namespace osculate::deck {
@@ -255,12 +256,29 @@ void write_viscoelastic(const std::string& law, const Material& material, Leaves
     out += fmt::format("0, {}, {}\n", exact(term[0]), exact(term[1]));
 }
 
+/// Its library is named otherwise when the deck is run.
+void write_user(const std::string& law, const Material& material, Leaves& leaves,
+                std::string& out) {
+  (void)leaves.text(law + ".library");
+  const std::string name = leaves.text(law + ".name");
+  if (io::inp::capitals(name.empty() ? "user" : name) != io::inp::capitals(material.name.value))
+    leaves.fail(law + (name.empty() ? "" : ".name"),
+                "of an input file is the name of the material itself");
+  std::vector<double> constants;
+  while (const auto one = leaves.number(fmt::format("{}.constants[{}]", law, constants.size())))
+    constants.push_back(*one);
+  out +=
+      fmt::format("*USER MATERIAL, CONSTANTS={}\n", constants.size()) + rows_of_numbers(constants);
+  if (const auto state = leaves.number(law + ".state"))
+    out += fmt::format("*DEPVAR\n{}\n", exact(*state));
+}
+
 /// What writes the cards of a law; laws without have no counterpart.
 struct LawCards {
   std::string_view key;
   void (*write)(const std::string& law, const Material& material, Leaves& leaves, std::string& out);
 };
-constexpr std::array<LawCards, 12> cards_of_laws{
+constexpr std::array<LawCards, 13> cards_of_laws{
     {{"linear_elastic", write_isotropic},
      {"st_venant_kirchhoff", write_isotropic},
      {"elastoplastic", write_elastoplastic},
@@ -269,6 +287,7 @@ constexpr std::array<LawCards, 12> cards_of_laws{
      {"deformation_plasticity", write_deformation_plasticity},
      {"orthotropic", write_orthotropic},
      {"anisotropic", write_anisotropic},
+     {"user", write_user},
      {"rubber", write_rubber},
      {"ogden", write_ogden},
      {"arruda_boyce", write_arruda_boyce},

@@ -34,10 +34,11 @@ void require_one_kinematics(const Description& d, const model::BasicModel<Dim>& 
 }
 
 template <int Dim>
-void write_sections(const Description& d, const model::BasicModel<Dim>& m, const InpMesh<Dim>& mesh,
+void write_sections(const Description& d, const model::BasicModel<Dim>& m, InpMesh<Dim>& mesh,
                     Leaves& leaves, std::string& out) {
   require_one_kinematics(d, m);
   std::set<std::string> used;
+  std::vector<std::string> all_axes;
   for (std::size_t s = 0; s < d.sections.size(); ++s) {
     for (const char* const key :
          {"on", "material", "element", "thickness", "kinematics", "formulation"})
@@ -46,11 +47,14 @@ void write_sections(const Description& d, const model::BasicModel<Dim>& m, const
     if (used.insert(section.material.value).second)
       write_material(*d.find_material(section.material.value), damping_cards(d), leaves, out);
     const std::string axes = write_orientation(section, s, leaves, out);
+    all_axes.push_back(axes);
+    if (mesh.given()) continue;
     out += fmt::format("*SOLID SECTION, ELSET={}, MATERIAL={}{}\n", mesh.elements(s),
                        section.material.value, axes);
     if (Dim == 2 && !is_round(m.sections[s].section))
       out += exact(thickness_of(m.sections[s].section)) + "\n";
   }
+  if (mesh.given()) out += mesh.given()->sections(all_axes);
   for (const Step& step : d.steps)
     for (const MaterialChange& change : step.materials)
       if (used.insert(change.material.value).second)
@@ -69,13 +73,11 @@ std::vector<std::string> written_terms(const EquationTerm& term, InpMesh<Dim>& m
   const auto add = [&](std::int64_t node, int direction) {
     terms.push_back(fmt::format("{}, {}, {}\n", node, direction, exact(term.factor.value)));
   };
-  if (const auto control = mesh.control(term.on.value)) {
-    const auto [node, direction] = control->of(term.of);
+  if (mesh.control(term.on.value) || is_rotation(term.of) || mesh.turned(term.on)) {
+    const auto [node, direction] = mesh.only_node(term.on, term.of);
     add(node, direction);
     return terms;
   }
-  if (is_rotation(term.of))
-    throw core::InputError(term.on.mark, "rotations of a set are not written");
   (void)mesh.nodes(term.on);
   for (const Index n : mesh.set(term.on).nodes) add(mesh.node(n), static_cast<int>(term.of) + 1);
   return terms;
@@ -130,7 +132,8 @@ void write_initial(const Description& d, InpMesh<Dim>& mesh, Leaves& leaves, std
   leaves.take("initial_velocity");
   if (!d.initial_temperature.empty()) out += "*INITIAL CONDITIONS, TYPE=TEMPERATURE\n";
   for (const Load& load : d.initial_temperature)
-    out += fmt::format("{}, {}\n", mesh.nodes(load.on), exact(load.values[0]->value));
+    out += fmt::format("{}, {}{}\n", mesh.nodes(load.on), exact(load.values[0]->value),
+                       written_gradients(load, 1));
   if (!d.initial_velocity.empty()) out += "*INITIAL CONDITIONS, TYPE=VELOCITY\n";
   for (const Load& load : d.initial_velocity) {
     if (mesh.control(load.on.value))
@@ -142,6 +145,23 @@ void write_initial(const Description& d, InpMesh<Dim>& mesh, Leaves& leaves, std
   }
 }
 
+/// A line of each point of each element.
+template <int Dim>
+std::string values_of_points(const InitialState& one, const InpMesh<Dim>& mesh) {
+  if (Dim == 2)
+    throw core::InputError(one.points.mark,
+                           "points of plane elements are not written: those of an input file are "
+                           "the points of solids");
+  std::string out;
+  for (const std::int64_t element : mesh.element_numbers(one.on))
+    for (std::size_t p = 0; p < one.points.value.size(); ++p) {
+      out += fmt::format("{}, {}", element, p + 1);
+      for (const double value : one.points.value[p]) out += ", " + exact(value);
+      out += "\n";
+    }
+  return out;
+}
+
 /// Strains as those that plastic flow has left.
 template <int Dim>
 void write_initial_states(const std::vector<InitialState>& initial, InpMesh<Dim>& mesh,
@@ -149,8 +169,11 @@ void write_initial_states(const std::vector<InitialState>& initial, InpMesh<Dim>
                           std::string& out) {
   for (std::size_t i = 0; i < initial.size(); ++i) {
     const InitialState& one = initial[i];
-    if (!one.points.value.empty()) continue;
     leaves.take(fmt::format("{}[{}]", key, i));
+    if (!one.points.value.empty()) {
+      out += fmt::format("*INITIAL CONDITIONS, TYPE={}\n", type) + values_of_points(one, mesh);
+      continue;
+    }
     out += fmt::format("*INITIAL CONDITIONS, TYPE={}\n{}", type, mesh.elements(one.on));
     for (const double value : one.value.value) out += ", " + exact(value);
     out += "\n";
@@ -160,16 +183,19 @@ void write_initial_states(const std::vector<InitialState>& initial, InpMesh<Dim>
 }  // namespace
 
 template <int Dim>
-void write_model(const Description& d, const model::BasicModel<Dim>& m, InpMesh<Dim>& mesh,
-                 Leaves& leaves, std::string& out) {
+void write_model(const Description& d, const model::BasicModel<Dim>& m,
+                 const std::vector<Cut>& cuts, InpMesh<Dim>& mesh, Leaves& leaves,
+                 std::string& out) {
   write_sections(d, m, mesh, leaves, out);
   write_axes(d, mesh, leaves, out);
   write_rigid(d, mesh, leaves, out);
+  write_couplings(d, mesh, leaves, out);
   write_equations(d, mesh, leaves, out);
   write_node_conditions(d, mesh, leaves, out);
   write_springs(d, mesh, leaves, out);
   write_masses(d, mesh, leaves, out);
   write_cyclic_symmetry(d, mesh, leaves, out);
+  write_pretension(d, cuts, mesh, leaves, out);
   write_contact(d, m, mesh, leaves, out);
   write_ties(d, mesh, leaves, out);
   write_initial(d, mesh, leaves, out);
@@ -177,9 +203,9 @@ void write_model(const Description& d, const model::BasicModel<Dim>& m, InpMesh<
   write_initial_states(d.initial_strain, mesh, "initial_strain", "PLASTIC STRAIN", leaves, out);
 }
 
-template void write_model(const Description&, const model::Model&, InpMesh<2>&, Leaves&,
-                          std::string&);
-template void write_model(const Description&, const model::Model3&, InpMesh<3>&, Leaves&,
-                          std::string&);
+template void write_model(const Description&, const model::Model&, const std::vector<Cut>&,
+                          InpMesh<2>&, Leaves&, std::string&);
+template void write_model(const Description&, const model::Model3&, const std::vector<Cut>&,
+                          InpMesh<3>&, Leaves&, std::string&);
 
 }  // namespace osculate::deck

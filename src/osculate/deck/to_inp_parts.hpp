@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -11,7 +12,9 @@
 #include <vector>
 
 #include "osculate/deck/build_context.hpp"
+#include "osculate/deck/pretension.hpp"
 #include "osculate/deck/to_inp.hpp"
+#include "osculate/deck/to_inp_given.hpp"
 #include "osculate/io/inp/element_types.hpp"
 
 namespace osculate::deck {
@@ -49,14 +52,30 @@ class Leaves {
 /// A number as short as it is exact.
 [[nodiscard]] std::string exact(double value);
 
+/// `, along the normal, along the first axis` of a temperature times a factor; empty: it has none.
+[[nodiscard]] inline std::string written_gradients(const Load& load, double factor) {
+  const auto at = [&](std::size_t k) {
+    return load.values[k] ? factor * load.values[k]->value : 0;
+  };
+  if (!load.values[1] && !load.values[2]) return {};
+  return fmt::format(", {}, {}", exact(at(1)), exact(at(2)));
+}
+
 /// The nodes of a rigid body that stand for its displacements and its rotations.
 struct ControlNodes {
-  std::int64_t reference = 0, rotation = 0;
+  std::int64_t reference = 0, rotation = 0;  ///< the same: of knots and couplings
   /// Node and direction of a motion.
   [[nodiscard]] std::pair<std::int64_t, int> of(Component motion) const {
     const int k = static_cast<int>(motion);
+    if (reference == rotation) return {reference, k + 1};
     return is_rotation(motion) ? std::pair{rotation, k - 2} : std::pair{reference, k + 1};
   }
+};
+
+/// A node of the deck that the mesh has not, and its place.
+struct NewNode {
+  std::int64_t number = 0;
+  Vec3 at = Vec3::Zero();
 };
 
 /// The mesh of a deck: nodes, the elements of the sections, and the sets that are asked for.
@@ -76,12 +95,36 @@ class InpMesh {
   [[nodiscard]] const mesh::Set& set(const Name& on) const;
   [[nodiscard]] std::int64_t node(Index node) const;
   /// Name of the elements of a section.
-  [[nodiscard]] std::string elements(std::size_t section) const;
+  const std::string& elements(std::size_t section) { return elements(d_.sections[section].on); }
   /// The same of a set of cells, which is written where it is not that of a section.
   const std::string& elements(const Name& on);
+  /// The same of all layers of a section, where it is one of them.
+  std::string whole_elements(std::size_t section);
+  /// Numbers of the elements of a set of cells.
+  [[nodiscard]] std::vector<std::int64_t> element_numbers(const Name& on) const;
+  /// The surface of the elements that an axis points to from a set of facets inside of a body.
+  const std::string& surface_ahead(const Name& on, const Vec3& axis);
+  /// That of a set of facets, which may lie inside: of the elements that their normals point out
+  /// of.
+  const std::string& surface_of_cut(const Name& on);
+  /// Node of a rigid body or a section under pretension, a new one where the mesh has none.
+  std::string write_control(const std::string& name);
+  [[nodiscard]] bool has_nodes_of_elements(const Name& on) const;
+  /// The sections that have the cells of a set.
+  [[nodiscard]] std::set<std::size_t> sections_of(const Name& on) const;
+  /// The mesh as its deck has it, where shells, beams or plane elements became solids; else null.
+  [[nodiscard]] const GivenMesh* given() const { return given_.get(); }
+  /// Fails where the deck that was written is not that of the mesh and its sections.
+  void require_same(const std::string& text) const;
   [[nodiscard]] bool is_curved(const Name& surface) const;
+  /// Of a set of facets, undeformed.
+  [[nodiscard]] double area(const Name& surface) const;
   /// Of a rigid body by its name.
   [[nodiscard]] std::optional<ControlNodes> control(const std::string& rigid) const;
+  /// The set whose nodes turn by the displacements of those of another one; none: these do not.
+  [[nodiscard]] std::optional<Name> turned(const Name& on) const;
+  /// Node and direction of a displacement of a rigid body, or of a set of one node.
+  [[nodiscard]] std::pair<std::int64_t, int> only_node(const Name& on, Component of);
   /// Set of the nodes of sections that belong to a rigid body, which is written.
   const std::string& nodes_of_body(const SetShape& shape, const Rigid& rigid);
   /// Number of an element that is no cell.
@@ -92,14 +135,21 @@ class InpMesh {
 
  private:
   /// The cards of a set of nodes.
-  void write_nodes(const std::string& name, const std::vector<Index>& nodes);
+  void write_nodes(const Name& on, const std::string& name, const std::vector<Index>& nodes);
   /// A name of the deck for one of the model file, always the same, and of no other set.
   const std::string& plain(const std::string& name, char kind);
   [[nodiscard]] static std::string plain_text(const std::string& name);
+  void take_controls();
+  void take_control(const Rigid& rigid, std::int64_t& last);
+  /// What the deck whose mesh this is calls it.
+  [[nodiscard]] std::optional<std::string> given_name(io::inp::SetKind kind, const Name& on) const;
   [[nodiscard]] std::vector<Side<Dim>> facets(const Name& on) const;
   [[nodiscard]] std::string type_of(const model::BasicBulkSection<Dim>& section,
                                     cell::CellType type) const;
-  [[nodiscard]] std::string side_of(const Side<Dim>& facet, const Name& on) const;
+  /// The sides of elements at facets: of those that the axis points to, else as surface_of_cut.
+  [[nodiscard]] std::string sides_at(const Name& on, const std::optional<Vec3>& axis) const;
+  [[nodiscard]] std::string side_of(const mesh::CellRef& parent, std::span<const Index> corners,
+                                    const Name& on) const;
 
   const Description& d_;
   const model::BasicModel<Dim>& m_;
@@ -110,6 +160,9 @@ class InpMesh {
   std::map<std::pair<char, std::string>, std::string> names_;  ///< of nodes 'n', surfaces 's', 'p'
   std::set<std::pair<char, std::string>> taken_;               ///< these, in capitals
   std::map<std::string, ControlNodes> controls_;               ///< by rigid body
+  std::map<std::string, std::vector<NewNode>> new_nodes_;      ///< likewise
+  std::map<std::pair<Index, Index>, std::size_t> section_of_;  ///< likewise, of a cell
+  std::unique_ptr<GivenMesh> given_;
   std::int64_t last_element_ = 0, last_node_ = 0;  ///< numbers of the mesh, later of more
   std::string sets_;
 };
@@ -163,10 +216,20 @@ void write_ties(const Description& d, InpMesh<Dim>& mesh, Leaves& leaves, std::s
 template <int Dim>
 [[nodiscard]] std::string contact_changes(const Description& d, std::size_t step,
                                           InpMesh<Dim>& mesh, Leaves& leaves);
-/// Adds materials, sections, equations, contact and what there is at first.
+/// The mean motion of sets, or some displacements of each node, that are those of a body which is a
+/// node alone.
 template <int Dim>
-void write_model(const Description& d, const model::BasicModel<Dim>& m, InpMesh<Dim>& mesh,
-                 Leaves& leaves, std::string& out);
+void write_couplings(const Description& d, InpMesh<Dim>& mesh, Leaves& leaves, std::string& out);
+/// `cuts` of the mesh that has them.
+template <int Dim>
+void write_pretension(const Description& d, const std::vector<Cut>& cuts, InpMesh<Dim>& mesh,
+                      Leaves& leaves, std::string& out);
+/// Adds materials, sections, equations, contact and what there is at first. The mesh of the model
+/// has no cuts.
+template <int Dim>
+void write_model(const Description& d, const model::BasicModel<Dim>& m,
+                 const std::vector<Cut>& cuts, InpMesh<Dim>& mesh, Leaves& leaves,
+                 std::string& out);
 /// The amplitudes, then the steps.
 template <int Dim>
 void write_steps(const Description& d, InpMesh<Dim>& mesh, Leaves& leaves, std::string& out);

@@ -138,20 +138,25 @@ std::string request_of(const AnswerRequest& request, bool file, const Descriptio
     return !is_of_nodes(a) && !is_of_contact(a) && a != Answer::sof;
   };
   std::string on_nodes, on_cells, out;
+  bool of_cells = true;
   for (const Name& on : request.on) {
     if (request.of.front() == Answer::sof)
-      return fmt::format("*SECTION PRINT, SURFACE={0}, NAME={0}{1}\nSOF\n", mesh.surface(on), end);
-    if (is_of_nodes(request.of.front())) on_nodes = ", NSET=" + mesh.nodes(on);
-    if (!is_of_cells(request.of.front())) continue;
-    on_cells = ", ELSET=" + mesh.elements(on);
+      return fmt::format("*SECTION PRINT, SURFACE={0}, NAME={0}{1}\nSOF\n", mesh.surface_of_cut(on),
+                         end);
+    if (std::ranges::any_of(request.of, is_of_nodes)) on_nodes = ", NSET=" + mesh.nodes(on);
+    of_cells = !mesh.set(on).cells.empty();  // there are no tables of cells of nodes
+    if (of_cells && std::ranges::any_of(request.of, is_of_cells))
+      on_cells = ", ELSET=" + mesh.elements(on);
   }
+  // shells, beams and plane elements as the deck has them, or the solids
+  if (file && mesh.given()) end += d.output.as_given ? ", OUTPUT=2D" : ", OUTPUT=3D";
   const auto add = [&](const char* kind, const std::string& where, const std::string& words) {
     if (!words.empty())
       out += fmt::format("*{} {}{}{}\n{}\n", kind, file ? "FILE" : "PRINT", where, end, words);
   };
   if (!file && !d.axes.empty() && !request.local) on_nodes += ", GLOBAL=YES";
   add("NODE", on_nodes, words_of(request, is_of_nodes));
-  add("EL", on_cells, words_of(request, is_of_cells));
+  if (of_cells) add("EL", on_cells, words_of(request, is_of_cells));
   add("CONTACT", "", words_of(request, is_of_contact));
   return out;
 }
@@ -208,13 +213,28 @@ ProcedureCards procedure_of(const Description& d, std::size_t number, bool finit
 
 template <int Dim>
 std::string requests_of(const Description& d, const Step& step, InpMesh<Dim>& mesh) {
-  std::string out;
+  std::string out, before;
+  const auto asked = [](const AnswerRequest& request, const Step& of) {
+    return request.steps.empty() || std::ranges::any_of(request.steps, [&](const Name& n) {
+             return n.value == of.name.value;
+           });
+  };
   for (const bool file : {true, false})
-    for (const AnswerRequest& request : file ? d.output.frd : d.output.dat)
-      if (request.steps.empty() || std::ranges::any_of(request.steps, [&](const Name& n) {
-            return n.value == step.name.value;
-          }))
-        out += request_of(request, file, d, mesh);
+    for (const AnswerRequest& request : file ? d.output.frd : d.output.dat) {
+      if (asked(request, step)) out += request_of(request, file, d, mesh);
+      if (&step != d.steps.data() && asked(request, *(&step - 1)))
+        before += request_of(request, file, d, mesh);
+    }
+  // requests hold until a later step has some of their kind
+  for (const char* const card :
+       {"*NODE FILE", "*EL FILE", "*CONTACT FILE", "*NODE PRINT", "*EL PRINT", "*CONTACT PRINT"})
+    if (before.find(card) != std::string::npos && out.find(card) == std::string::npos)
+      out += fmt::format("{}, FREQUENCY=0\n", card);
+  const std::size_t sums = before.find("*SECTION PRINT");
+  if (sums != std::string::npos && out.find("*SECTION PRINT") == std::string::npos) {
+    const std::string card = before.substr(sums, before.find('\n', sums) - sums);
+    out += card.substr(0, card.find(", FREQUENCY")) + ", FREQUENCY=0\n";
+  }
   return out;
 }
 

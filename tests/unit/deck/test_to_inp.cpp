@@ -189,8 +189,9 @@ TEST(ToInp, BodiesThatChangeAreWrittenToo) {
 }
 
 TEST(ToInp, WhatHasNoCounterpartIsRefusedByItsKey) {
-  EXPECT_THAT(refusal("normal: {penalty: 1e4}", "two_pass: true, normal: {penalty: 1e4}"),
-              HasSubstr("model.yaml:13: contact[0].two_pass: has no counterpart"));
+  EXPECT_THAT(refusal("normal: {penalty: 1e4}",
+                      "two_pass: true, sampling: {gauss: 3}, normal: {penalty: 1e4}"),
+              HasSubstr("model.yaml:13: contact[0].sampling.gauss: has no counterpart"));
   EXPECT_THAT(
       refusal("normal: {penalty: 1e4}", "enforcement: augmented_lagrange, normal: {penalty: 1e4}"),
       HasSubstr("contact[0].enforcement: has no counterpart"));
@@ -203,8 +204,9 @@ TEST(ToInp, WhatHasNoCounterpartIsRefusedByItsKey) {
                       "sections:\n"),
               HasSubstr("rigid.r.plane"));
   EXPECT_THAT(refusal("{on: high.left, uy: 0}]",
-                      "{on: high.left, uy: 0}]\n    traction: [{on: high.top, tz: 1}]"),
-              HasSubstr("steps[0].traction"));
+                      "{on: high.left, uy: 0}]\n    traction: [{on: high.top, tz: 1, amplitude: "
+                      "there_and_back}]"),
+              HasSubstr("is written of the last step alone"));
   EXPECT_THAT(
       refusal("pressure: [{on: low.right, value: 3}]",
               "forces: [{on: high.top, fy: 1}]\n    pressure: [{on: low.right, value: 3}]"),
@@ -309,9 +311,9 @@ TEST(ToInp, WhatHoldsAndPullsNodes) {
   const std::string deck = written(text);
   EXPECT_THAT(deck, HasSubstr("*TRANSFORM, NSET=c.right, TYPE=R\n1, 1, 0, 0, 1, 0\n"));
   EXPECT_THAT(deck, HasSubstr("*ELEMENT, TYPE=SPRINGA, ELSET=spring_1\n9, 1, 27\n"
-                              "*SPRING, ELSET=spring_1\n\n5\n"));
-  EXPECT_THAT(deck, HasSubstr("*SPRING, ELSET=spring_2, NONLINEAR\n1\n-2, -1\n0, 0\n3, 1\n"));
-  EXPECT_THAT(deck, HasSubstr("*DASHPOT, ELSET=damper_3\n2, 2\n4\n"));
+                              "*SPRING, ELSET=spring_1\n\n5.\n"));
+  EXPECT_THAT(deck, HasSubstr("*SPRING, ELSET=spring_2, NONLINEAR\n1\n-2., -1.\n0., 0.\n3., 1.\n"));
+  EXPECT_THAT(deck, HasSubstr("*DASHPOT, ELSET=damper_3\n2, 2\n4.\n"));
   EXPECT_THAT(deck, HasSubstr("*MASS, ELSET=mass_1\n7\n"));
   EXPECT_THAT(deck, HasSubstr("*MPC\nPLANE, c.top\n"));
   EXPECT_THAT(deck,
@@ -399,9 +401,9 @@ TEST(ToInp, WhatADeckCannotSayOfTheNewKeys) {
                               "{stiffness: 5, tension: 1}, kinematics: small}]\n",
                               pressed)),
               HasSubstr("gaps of two nodes along a unit vector"));
-  EXPECT_THAT(refusal_of(cube(elastic, "",
-                              edited(pressed, "}]}", "}], total_force: [{on: c.top, fz: 1}]}"))),
-              HasSubstr("steps[0].total_force"));
+  EXPECT_THAT(
+      refusal_of(cube(elastic, "", edited(pressed, "}]}", "}], total_force: [{on: c, fz: 1}]}"))),
+      HasSubstr("written of facets and of nodes, not of bodies"));
   EXPECT_THAT(refusal_of(cube(elastic, "",
                               edited(pressed, "increments: 1",
                                      "dynamics: {scheme: {generalized_alpha: {radius: 0.8}}}, "
@@ -599,6 +601,43 @@ TEST(ToInp, PartsOfSectionsAndGaps) {
   const Description after = parse_model(translate_deck(text, "model.inp").root, "model.inp");
   ASSERT_EQ(after.springs.size(), 1U);
   EXPECT_EQ(after.springs[0].gap->clearance, 0.1);
+}
+
+TEST(ToInp, SidesThatAreSlavesInTurnAndDecayingFriction) {
+  const std::string text = written(edited(
+      edited(blocks, "normal: {penalty: 1e4}, friction: {coulomb: {mu: 0.2, penalty: 5e3}}",
+             "two_pass: true, normal: {penalty: 1e4}, friction: {coulomb: {mu: 0.3, "
+             "kinetic: 0.1, decay: {speed: 4}}}"),
+      "  - name: free\n    increments: 1", "  - name: free\n    duration: 1\n    increments: 1"));
+  const Contact again =
+      parse_model(translate_deck(text, "model.inp").root, "model.inp").contact.at(0);
+  EXPECT_THAT(text, HasSubstr("*FRICTION, EXPONENTIAL DECAY\n0.3, 0.1, 0.25\n"));
+  EXPECT_THAT(text, HasSubstr("*CONTACT\n*CONTACT INCLUSIONS\nhigh.bottom, low.top\n"
+                              "*CONTACT PROPERTY ASSIGNMENT\nhigh.bottom, low.top, law_of_c\n"));
+  EXPECT_TRUE(again.two_pass.has_value());
+  EXPECT_EQ(again.slave.value, "high.bottom");
+  EXPECT_THAT(text, Not(HasSubstr("*CONTACT PAIR")));
+}
+
+TEST(ToInp, TractionsGoThereAndBack) {
+  const std::string text = written(edited(
+      blocks, "pressure: [{on: low.right, value: 3}]",
+      "pressure: [{on: low.right, value: 3}]\n    traction: [{on: high.right, ty: 3, tz: 4}]"));
+  EXPECT_THAT(text, HasSubstr("*DSLOAD, FOLLOWER=NO, CONSTANT RESULTANT=YES\nhigh.right, TRVEC, 5, "
+                              "0, 0.6, 0.8\n"));
+  const Description after = parse_model(translate_deck(text, "model.inp").root, "model.inp");
+  EXPECT_NEAR(after.steps[0].traction.at(0).values[1]->value, 3, 1e-15);
+}
+
+TEST(ToInp, ForcesInTotalAreSharedOut) {
+  const std::string text = written(edited(
+      blocks, "pressure: [{on: low.right, value: 3}]",
+      "pressure: [{on: low.right, value: 3}]\n    total_force: [{on: low.front, fy: 3}, {on: "
+      "high.bottom_front, fx: 6}]"));
+  const Description after = parse_model(translate_deck(text, "model.inp").root, "model.inp");
+  EXPECT_EQ(after.steps[0].traction.at(0).on.value, "low.front");
+  EXPECT_NEAR(after.steps[0].traction[0].values[1]->value, 1.5, 1e-14);  // over an area of 2
+  EXPECT_THAT(text, HasSubstr("*CLOAD\nhigh.bottom_front, 1, 3\n"));     // two nodes
 }
 
 }  // namespace
