@@ -148,13 +148,8 @@ TEST(Relaxing, OfAHeldStrainLosesTheEnergyOfItsTerms) {
   }
 }
 
-/// T of neo-Hooke's law with the shear modulus 1 in simple shear, and its derivative by the shear:
+/// Derivative by the shear y of T of neo-Hooke's law with the shear modulus 1 in simple shear,
 /// I - (3 + y^2) / 3 C^-1 , C^-1 = [1 + y^2, -y; -y, 1].
-Mat<3, 3> shear_of(double y) {
-  Mat<3, 3> inverse = Mat<3, 3>::Identity();
-  inverse.topLeftCorner<2, 2>() << 1 + y * y, -y, -y, 1;
-  return Mat<3, 3>::Identity() - (3 + y * y) / 3 * inverse;
-}
 Mat<3, 3> slope_of_shear(double y) {
   Mat<3, 3> inverse = Mat<3, 3>::Identity(), slope = Mat<3, 3>::Zero();
   inverse.topLeftCorner<2, 2>() << 1 + y * y, -y, -y, 1;
