@@ -316,9 +316,8 @@ SourceNode inp_materials(InpModel& m) {
       put_relaxation(m, *c.hyperelastic, *c.viscoelastic, material);
       m.notes.push_back(fmt::format(
           "line {}: *VISCOELASTIC of rubber is Simo's form: as in Abaqus at once, at small strain "
-          "and of a stretch that is held, otherwise apart at large strain (2 % at a stretch of "
-          "1.2, "
-          "9 % at 2)",
+          "and of a stretch that is held, otherwise apart at large strain (2 % at a stretch "
+          "of 1.2, 9 % at 2)",
           c.viscoelastic->at.line));
     }
     if (c.expansion && has_temperatures(m))
