@@ -70,6 +70,11 @@ void set_elastic(material::Logarithmic<T>& form, double young, double poisson) {
   set_elastic(form.law, young, poisson);
 }
 template <class T>
+void set_elastic(material::Relaxing<T>& form, double young, double poisson) {
+  set_elastic(form.law, young, poisson);
+  form.series = {{{0.3, 1}, {0.2, 5}}, {{0.3, 1}, {0.2, 5}}};
+}
+template <class T>
 void set_elastic(material::GreenLagrange<T>& form, double young, double poisson) {
   set_elastic(form.law, young, poisson);
 }

@@ -96,9 +96,10 @@ class Decks(unittest.TestCase):
 
     def test_a_model_file_becomes_a_deck_with_the_same_results(self):
         """Contact, finite plastic strain with the load taken back, temperatures, kinematic hardening, second order, expansion by directions,
-        viscoelastic."""
+        viscoelastic, rubber that relaxes."""
         for model in ("contact_patch/matching", "plastic_bar/stretch", "plastic_bar/cycle_space", "plastic_cylinder/cylinder",
-                      "temperature/bimetal", "plastic_bar/heated", "temperature/tube", "viscoelastic/bar"):
+                      "temperature/bimetal", "plastic_bar/heated", "temperature/tube", "viscoelastic/bar",
+                      "relaxation/shear"):
             with self.subTest(model):
                 source = ROOT / "verification" / f"{model}.yaml"
                 name = model.replace("/", "_")

@@ -71,24 +71,27 @@ std::vector<double> numbers_of_terms(const InpModel& m, const Card& card, std::s
 }
 
 /// mu and alpha of each term, then what it says of the volume.
-void put_terms(const InpModel& m, const Card& card, std::string_view volume, SourceNode& law) {
+void put_terms(const InpModel& m, const Card& card, std::string_view volume,
+               const InpAtOnce& at_once, SourceNode& law) {
   const auto n = static_cast<std::size_t>(order_of(m, card));
   std::vector<double> numbers = numbers_of_terms(m, card, n);
   const int line = line_of(card.at);
   double shear = 0;
   for (std::size_t p = 0; p < n; ++p) {
     shear += numbers[2 * p];
-    put(law, fmt::format("mu{}", p + 1), inp_number(numbers[2 * p], line));
+    put(law, fmt::format("mu{}", p + 1), inp_number(at_once.shear * numbers[2 * p], line));
     put(law, fmt::format("alpha{}", p + 1), inp_number(numbers[2 * p + 1], line));
   }
   if (volume == "d" && numbers[2 * n] == 0) numbers[2 * n] = usual_compliance(shear);
+  const double of_volume = volume == "d" ? 1 / at_once.bulk : 1;  // nu stays
   for (std::size_t p = 0; p < n; ++p)
     if (numbers[2 * n + p] != 0)
-      put(law, fmt::format("{}{}", volume, p + 1), inp_number(numbers[2 * n + p], line));
+      put(law, fmt::format("{}{}", volume, p + 1),
+          inp_number(of_volume * numbers[2 * n + p], line));
 }
 
 /// mu, lambda_m and d; without it that of mu, not of the shear modulus, as there.
-void put_chains(const InpModel& m, const Card& card, SourceNode& law) {
+void put_chains(const InpModel& m, const Card& card, const InpAtOnce& at_once, SourceNode& law) {
   std::vector<double> numbers = numbers_of(m, card);
   if (numbers.size() < 2)
     io::inp::fail(m.deck, card,
@@ -97,9 +100,10 @@ void put_chains(const InpModel& m, const Card& card, SourceNode& law) {
     io::inp::fail(m.deck, card, "constants that depend on the temperature are not supported");
   numbers.resize(3);
   const int line = line_of(card.at);
-  put(law, "mu", inp_number(numbers[0], line));
+  put(law, "mu", inp_number(at_once.shear * numbers[0], line));
   put(law, "lambda_m", inp_number(numbers[1], line));
-  put(law, "d", inp_number(numbers[2] != 0 ? numbers[2] : usual_compliance(numbers[0]), line));
+  const double d = numbers[2] != 0 ? numbers[2] : usual_compliance(numbers[0]);
+  put(law, "d", inp_number(d / at_once.bulk, line));
 }
 
 }  // namespace
@@ -110,13 +114,14 @@ std::string_view hyperelastic_law(const Card& card) {
   return io::inp::find_parameter(card, "OGDEN") ? "ogden" : "rubber";
 }
 
-void put_hyperelastic(const InpModel& m, const Card& card, SourceNode& law) {
+void put_hyperelastic(const InpModel& m, const Card& card, const InpAtOnce& at_once,
+                      SourceNode& law) {
   const std::string_view kind = hyperelastic_law(card);
   if (io::inp::find_parameter(card, "TESTDATAINPUT"))
     io::inp::fail(m.deck, card, "constants from test data are not supported: give them");
-  if (kind == "hyperfoam") return put_terms(m, card, "nu", law);
-  if (kind == "arruda_boyce") return put_chains(m, card, law);
-  if (kind == "ogden") return put_terms(m, card, "d", law);
+  if (kind == "hyperfoam") return put_terms(m, card, "nu", at_once, law);
+  if (kind == "arruda_boyce") return put_chains(m, card, at_once, law);
+  if (kind == "ogden") return put_terms(m, card, "d", at_once, law);
   const Form form = form_of(m, card);
   const std::vector<double> numbers = numbers_of(m, card);
   const std::size_t factors = form.factors.size(),
@@ -131,12 +136,13 @@ void put_hyperelastic(const InpModel& m, const Card& card, SourceNode& law) {
   for (std::size_t k = 0; k < factors; ++k) {
     const std::string_view key = form.factors[k];
     if (key == "c10" || key == "c01") half_shear += numbers[k];
-    if (numbers[k] != 0 || key == "c10") put(law, std::string(key), inp_number(numbers[k], line));
+    if (numbers[k] != 0 || key == "c10")
+      put(law, std::string(key), inp_number(at_once.shear * numbers[k], line));
   }
   for (std::size_t k = 0; k < static_cast<std::size_t>(form.order); ++k) {
     double d = factors + k < numbers.size() ? numbers[factors + k] : 0;
     if (k == 0 && d == 0) d = usual_compliance(2 * half_shear);
-    if (d != 0) put(law, fmt::format("d{}", k + 1), inp_number(d, line));
+    if (d != 0) put(law, fmt::format("d{}", k + 1), inp_number(d / at_once.bulk, line));
   }
 }
 

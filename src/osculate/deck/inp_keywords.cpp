@@ -43,14 +43,15 @@ constexpr std::array<InpKeyword, 150> keywords{{
      "`elastoplastic: hardening` beside `kinematic`"},
     {"CREEP", "LAW", "A, n, m, temperature", translated, "`norton: {A, n}` (LAW=NORTON, m = 0)"},
     {"VISCOELASTIC", "TIME=PRONY", "g, k, tau", translated,
-     "`viscoelastic: {shear, bulk}` beside `*ELASTIC` (MODULI)"},
+     "`viscoelastic: {shear, bulk}` beside `*ELASTIC`, `relaxation: {shear, bulk}` beside "
+     "`*HYPERELASTIC` and `*HYPERFOAM` (MODULI)"},
     {"HYPERELASTIC",
-     "N, NEO HOOKE, MOONEY-RIVLIN, YEOH, POLYNOMIAL, REDUCED POLYNOMIAL, OGDEN, ARRUDA-BOYCE; "
+     "N, NEO HOOKE, MOONEY-RIVLIN, YEOH, POLYNOMIAL, REDUCED POLYNOMIAL, OGDEN, ARRUDA-BOYCE, "
      "MODULI",
      "constants", translated,
      "`rubber` (NEO HOOKE, MOONEY-RIVLIN, YEOH, POLYNOMIAL, REDUCED POLYNOMIAL), `ogden` (OGDEN), "
      "`arruda_boyce` (ARRUDA-BOYCE)"},
-    {"HYPERFOAM", "N; MODULI", "constants", translated, "`hyperfoam`"},
+    {"HYPERFOAM", "N, MODULI", "constants", translated, "`hyperfoam`"},
     {"DEFORMATION PLASTICITY", "", "E, nu, stress, n, alpha", translated,
      "`deformation_plasticity`"},
     {"USER MATERIAL", "CONSTANTS, TYPE=MECHANICAL; UNSYMM", "constants", translated,

@@ -208,7 +208,7 @@ std::string_view law_of(const InpModel& m, const MaterialCards& c) {
     if (c.deformation && other)
       io::inp::fail(m.deck, *other,
                     "of a material with *DEFORMATION PLASTICITY this is not supported");
-  for (const Card* const other : {c.plastic, c.creep, c.hyperelastic, c.user, c.deformation})
+  for (const Card* const other : {c.plastic, c.creep, c.user, c.deformation})
     if (c.viscoelastic && other)
       io::inp::fail(m.deck, *other, "of a material with *VISCOELASTIC this is not supported");
   if (c.viscoelastic && c.elastic && is_directional(*c.elastic))
@@ -300,7 +300,7 @@ SourceNode inp_materials(InpModel& m) {
     else if (c.deformation)
       put_deformation(m, *c.deformation, law);
     else if (c.hyperelastic)
-      put_hyperelastic(m, *c.hyperelastic, law);
+      put_hyperelastic(m, *c.hyperelastic, at_once_of(m, *c.hyperelastic, c.viscoelastic), law);
     else if (c.viscoelastic)
       put_viscoelastic(m, *c.elastic, *c.viscoelastic, law);
     else
@@ -312,6 +312,14 @@ SourceNode inp_materials(InpModel& m) {
       tell_of_two_points(m, *c.plastic);
     }
     if (c.creep) put_creep(m, *c.creep, law);
+    if (c.hyperelastic && c.viscoelastic) {
+      put_relaxation(m, *c.hyperelastic, *c.viscoelastic, material);
+      m.notes.push_back(fmt::format(
+          "line {}: *VISCOELASTIC of rubber is Simo's form: as in Abaqus at once, at small strain "
+          "and of a stretch that is held, otherwise apart at large strain (2 % at a stretch "
+          "of 1.2, 9 % at 2)",
+          c.viscoelastic->at.line));
+    }
     if (c.expansion && has_temperatures(m))
       put(material, "expansion", inp_expansion(m, *c.expansion));
   }

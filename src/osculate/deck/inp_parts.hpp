@@ -124,7 +124,12 @@ void put_elastic(const InpModel& m, const io::inp::Card& elastic, SourceNode& la
                                          const std::string& name);
 /// The law that a `*HYPERELASTIC` or `*HYPERFOAM` means, and its constants.
 [[nodiscard]] std::string_view hyperelastic_law(const io::inp::Card& card);
-void put_hyperelastic(const InpModel& m, const io::inp::Card& card, SourceNode& law);
+/// Of a law that relaxes they are given as those of the end, and multiplied.
+struct InpAtOnce {
+  double shear = 1, bulk = 1;
+};
+void put_hyperelastic(const InpModel& m, const io::inp::Card& card, const InpAtOnce& at_once,
+                      SourceNode& law);
 /// Of a `*USER MATERIAL`: the law that it means, by the name of the material, and its keys. The
 /// library of `user` is that of the environment variable OSCULATE_USER_MATERIAL; without it the
 /// deck is refused.
@@ -138,6 +143,13 @@ void put_user(const InpModel& m, const io::inp::Card& material, const io::inp::C
 /// Tested by  tests/unit/deck/test_inp_viscoelastic.cpp
 void put_viscoelastic(const InpModel& m, const io::inp::Card& elastic,
                       const io::inp::Card& viscoelastic, SourceNode& law);
+/// By what the moduli of an `*ELASTIC`, `*HYPERELASTIC` or `*HYPERFOAM` are multiplied beside a
+/// `*VISCOELASTIC` (none: null), by its MODULI.
+[[nodiscard]] InpAtOnce at_once_of(const InpModel& m, const io::inp::Card& elastic,
+                                   const io::inp::Card* viscoelastic);
+/// Puts the series of a `*VISCOELASTIC` beside a `*HYPERELASTIC` or `*HYPERFOAM`.
+void put_relaxation(const InpModel& m, const io::inp::Card& hyperelastic,
+                    const io::inp::Card& viscoelastic, SourceNode& material);
 /// The shortest time of any series of a deck; none: nothing relaxes.
 [[nodiscard]] std::optional<double> shortest_relaxation(const InpModel& m);
 [[nodiscard]] SourceNode inp_sections(InpModel& m);

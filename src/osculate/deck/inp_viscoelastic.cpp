@@ -55,22 +55,43 @@ void put_series(const std::vector<std::array<double, 3>>& terms, std::size_t whi
 
 }  // namespace
 
-void put_viscoelastic(const InpModel& m, const Card& elastic, const Card& viscoelastic,
-                      SourceNode& law) {
-  const auto terms = prony_terms(m, viscoelastic);
-  Fields fields(m.deck, constant_line(m, elastic, "E and nu"));
-  double young = fields.real("Young's modulus"), poisson = fields.real_or_zero("Poisson's ratio");
+InpAtOnce at_once_of(const InpModel& m, const Card& elastic, const Card* viscoelastic) {
+  if (!viscoelastic) return {};
   std::string moduli = option_of(elastic, "MODULI");
   std::erase(moduli, ' ');
   if (moduli != "INSTANTANEOUS" && !moduli.empty() && moduli != "LONGTERM")
     io::inp::fail(
         m.deck, elastic,
         fmt::format("MODULI={} is not supported: INSTANTANEOUS or LONG TERM", printable(moduli)));
-  const double shear_rest = remaining(m, viscoelastic, terms, 0),
-               bulk_rest = remaining(m, viscoelastic, terms, 1);
-  if (moduli != "INSTANTANEOUS") {
-    const double shear = young / (2 * (1 + poisson)) / shear_rest,
-                 bulk = young / (3 * (1 - 2 * poisson)) / bulk_rest;
+  const auto terms = prony_terms(m, *viscoelastic);
+  const double shear = remaining(m, *viscoelastic, terms, 0),
+               bulk = remaining(m, *viscoelastic, terms, 1);
+  if (moduli == "INSTANTANEOUS") return {};
+  return {1 / shear, 1 / bulk};
+}
+
+void put_relaxation(const InpModel& m, const Card& hyperelastic, const Card& viscoelastic,
+                    SourceNode& material) {
+  const auto terms = prony_terms(m, viscoelastic);
+  const bool alike = std::ranges::all_of(terms, [](const auto& t) { return t[0] == t[1]; });
+  if (hyperelastic.keyword == "HYPERFOAM" && !alike)
+    io::inp::fail(m.deck, viscoelastic,
+                  "of *HYPERFOAM shape and volume relax alike: each line has g = k");
+  const int line = line_of(viscoelastic.at);
+  SourceNode& relaxation = put(material, "relaxation", inp_map(line));
+  put_series(terms, 0, "shear", line, relaxation);
+  put_series(terms, 1, "bulk", line, relaxation);
+}
+
+void put_viscoelastic(const InpModel& m, const Card& elastic, const Card& viscoelastic,
+                      SourceNode& law) {
+  const auto terms = prony_terms(m, viscoelastic);
+  const InpAtOnce at_once = at_once_of(m, elastic, &viscoelastic);
+  Fields fields(m.deck, constant_line(m, elastic, "E and nu"));
+  double young = fields.real("Young's modulus"), poisson = fields.real_or_zero("Poisson's ratio");
+  if (at_once.shear != 1 || at_once.bulk != 1) {
+    const double shear = young / (2 * (1 + poisson)) * at_once.shear,
+                 bulk = young / (3 * (1 - 2 * poisson)) * at_once.bulk;
     young = 9 * bulk * shear / (3 * bulk + shear);
     poisson = (3 * bulk - 2 * shear) / (2 * (3 * bulk + shear));
   }

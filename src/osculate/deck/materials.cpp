@@ -96,6 +96,36 @@ BoundKey<Material> expansion_key() {
           read_expansion};
 }
 
+/// Keys of the materials that may relax.
+std::string relaxing_materials() {
+  return keys_of([]<class T>(const T&) { return material::Relaxable<T>; });
+}
+
+/// The law of a material, which stands before, relaxes.
+void read_relaxation(Material& m, const Value& v) {
+  const auto series = params_of<material::Relaxation>(v);
+  std::optional<material::Law> law = material::relaxing(m.law.value, series);
+  if (!law)
+    throw core::InputError(
+        v.mark, fmt::format("{} has none; {} may have one, and `viscoelastic` is Hooke's law with "
+                            "its own series",
+                            material::key_of(m.law.value), relaxing_materials()));
+  if (material::relaxes_alike(m.law.value) && series.shear != series.bulk)
+    throw core::InputError(
+        v.mark, fmt::format("of {} shape and volume relax alike: give `bulk` the terms of `shear`",
+                            material::key_of(m.law.value)));
+  m.law.value = std::move(*law);
+}
+BoundKey<Material> relaxation_key() {
+  const std::string doc = fmt::format(
+      "The stresses of {} relax by Prony series (finite linear viscoelasticity); the constants of "
+      "the law are those at once. Every step needs a duration.",
+      relaxing_materials());
+  return {optional("relaxation", params_spec<material::Relaxation>(doc).such_as(
+                                     "{shear: [[0.3, 1], [0.2, 10]]}")),
+          read_relaxation};
+}
+
 /// The law of a value; one whose formulas stand in a library, with them.
 template <class T>
 T law_of(const Value& v) {
@@ -105,7 +135,7 @@ T law_of(const Value& v) {
   return law;
 }
 
-/// One key a law, and the expansion.
+/// One key a law, the expansion and the relaxation.
 BoundKeys<Material> material_keys() {
   std::vector<BoundKey<Material>> keys;
   material::for_each_law([&]<class T>(const T&) {
@@ -118,6 +148,7 @@ BoundKeys<Material> material_keys() {
                     }});
   });
   keys.push_back(expansion_key());
+  keys.push_back(relaxation_key());
   return keys;
 }
 
@@ -134,7 +165,7 @@ void check_material(const Value&, const Material& m) {
 BoundKey<Description> materials_key() {
   Spec law = material_keys().spec("A material: exactly one law.");
   std::vector<std::string> keys = names_of(law.keys);
-  keys.pop_back();  // the expansion
+  keys.resize(keys.size() - 2);  // the expansion and the relaxation
   law = law.with(Group::Rule::exactly_one, keys)
             .or_else(fmt::format("; a material is NAME: {{LAW: {{E: ..., nu: ...}}}} with one of "
                                  "the laws {}; others are not available (osculate doc limits)",
@@ -171,6 +202,9 @@ std::vector<RememberedNumber> remembered_numbers() {
         numbers.push_back({std::move(word), of.name, of.doc, std::string(T::key)});
       }
   });
+  for (RememberedNumber& number : numbers)
+    if (number.name == material::relaxing_memory.front().name)
+      number.materials += ", those with `relaxation`";
   return numbers;
 }
 

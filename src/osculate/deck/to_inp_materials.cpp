@@ -145,7 +145,13 @@ void write_isotropic(const std::string& law, const Material& material, Leaves& l
   write_constants(law, std::array{"E", "nu"}, {}, material, leaves, out);
 }
 
-void write_rubber(const std::string& law, const Material&, Leaves& leaves, std::string& out) {
+/// Constants are those at once.
+const char* moduli_of(const Material& material) {
+  return material::needs_duration(material.law.value) ? ", MODULI=INSTANTANEOUS" : "";
+}
+
+void write_rubber(const std::string& law, const Material& material, Leaves& leaves,
+                  std::string& out) {
   constexpr std::array<const char*, 9> all{"c10", "c01", "c20", "c11", "c02",
                                            "c30", "c21", "c12", "c03"};
   constexpr std::array<std::size_t, 3> count{2, 5, 9};
@@ -159,12 +165,13 @@ void write_rubber(const std::string& law, const Material&, Leaves& leaves, std::
   while (order > 1 && none_behind(order - 1)) --order;
   c.resize(count[order - 1]);
   c.insert(c.end(), d.begin(), d.begin() + static_cast<std::ptrdiff_t>(order));
-  out += fmt::format("*HYPERELASTIC, POLYNOMIAL, N={}\n", order) + rows_of_numbers(c);
+  out += fmt::format("*HYPERELASTIC, POLYNOMIAL, N={}{}\n", order, moduli_of(material)) +
+         rows_of_numbers(c);
 }
 
 /// Terms of mu and alpha, then what they say of the volume.
-void write_terms_of(const std::string& law, const char* card, const char* volume, Leaves& leaves,
-                    std::string& out) {
+void write_terms_of(const std::string& law, const Material& material, const char* card,
+                    const char* volume, Leaves& leaves, std::string& out) {
   std::vector<double> terms, last;
   for (int p = 1; p <= 3; ++p) {
     const auto mu = leaves.number(fmt::format("{}.mu{}", law, p));
@@ -175,7 +182,8 @@ void write_terms_of(const std::string& law, const char* card, const char* volume
     last.push_back(of_volume.value_or(0));
   }
   terms.insert(terms.end(), last.begin(), last.end());
-  out += fmt::format("{}, N={}\n", card, last.size()) + rows_of_numbers(terms);
+  out +=
+      fmt::format("{}, N={}{}\n", card, last.size(), moduli_of(material)) + rows_of_numbers(terms);
 }
 
 void write_anisotropic(const std::string& law, const Material& material, Leaves& leaves,
@@ -211,15 +219,18 @@ void write_orthotropic(const std::string& law, const Material& material, Leaves&
   out += "*ELASTIC, TYPE=ENGINEERING CONSTANTS\n";
   write_constants(law, all, {}, material, leaves, out);
 }
-void write_arruda_boyce(const std::string& law, const Material&, Leaves& leaves, std::string& out) {
-  out += "*HYPERELASTIC, ARRUDA-BOYCE\n" +
+void write_arruda_boyce(const std::string& law, const Material& material, Leaves& leaves,
+                        std::string& out) {
+  out += fmt::format("*HYPERELASTIC, ARRUDA-BOYCE{}\n", moduli_of(material)) +
          rows_of_numbers(values_of(law, std::array{"mu", "lambda_m", "d"}, leaves));
 }
-void write_ogden(const std::string& law, const Material&, Leaves& leaves, std::string& out) {
-  write_terms_of(law, "*HYPERELASTIC, OGDEN", "d", leaves, out);
+void write_ogden(const std::string& law, const Material& material, Leaves& leaves,
+                 std::string& out) {
+  write_terms_of(law, material, "*HYPERELASTIC, OGDEN", "d", leaves, out);
 }
-void write_hyperfoam(const std::string& law, const Material&, Leaves& leaves, std::string& out) {
-  write_terms_of(law, "*HYPERFOAM", "nu", leaves, out);
+void write_hyperfoam(const std::string& law, const Material& material, Leaves& leaves,
+                     std::string& out) {
+  write_terms_of(law, material, "*HYPERFOAM", "nu", leaves, out);
 }
 
 /// Rows of coefficients, one, three or six, and their temperature where there are several.
@@ -245,15 +256,27 @@ void write_expansion(const std::string& path, Leaves& leaves, std::string& out) 
   write_rows(rows, out);
 }
 
+/// Of terms that both moduli have, one line each, in which a foam needs them.
+void write_series(const std::string& path, Leaves& leaves, std::string& out) {
+  const auto shear = rows_of(path + ".shear", leaves), bulk = rows_of(path + ".bulk", leaves);
+  if (shear.empty() && bulk.empty()) return;
+  out += "*VISCOELASTIC, TIME=PRONY\n";
+  if (shear == bulk) {
+    for (const std::vector<double>& term : shear)
+      out += fmt::format("{}, {}, {}\n", exact(term[0]), exact(term[0]), exact(term[1]));
+    return;
+  }
+  for (const std::vector<double>& term : shear)
+    out += fmt::format("{}, 0, {}\n", exact(term[0]), exact(term[1]));
+  for (const std::vector<double>& term : bulk)
+    out += fmt::format("0, {}, {}\n", exact(term[0]), exact(term[1]));
+}
+
 void write_viscoelastic(const std::string& law, const Material& material, Leaves& leaves,
                         std::string& out) {
   out += "*ELASTIC, MODULI=INSTANTANEOUS\n";
   write_constants(law, std::array{"E", "nu"}, {}, material, leaves, out);
-  out += "*VISCOELASTIC, TIME=PRONY\n";
-  for (const std::vector<double>& term : rows_of(law + ".shear", leaves))
-    out += fmt::format("{}, 0, {}\n", exact(term[0]), exact(term[1]));
-  for (const std::vector<double>& term : rows_of(law + ".bulk", leaves))
-    out += fmt::format("0, {}, {}\n", exact(term[0]), exact(term[1]));
+  write_series(law, leaves, out);
 }
 
 /// Its library is named otherwise when the deck is run.
@@ -307,6 +330,7 @@ void write_material(const Material& material, const std::string& damping, Leaves
                            fmt::format("{} is not written: it has no counterpart",
                                        material::key_of(material.law.value)));
   cards->write(law, material, leaves, out);
+  write_series(path + ".relaxation", leaves, out);
   if (const auto density = leaves.number(law + ".density"))
     out += fmt::format("*DENSITY\n{}\n", exact(*density));
   out += damping;

@@ -201,7 +201,7 @@ ProcedureCards procedure_of(const Description& d, std::size_t number, bool finit
   // in *STATIC nothing creeps or relaxes, and in *VISCO loads act at once where nothing is said
   const bool relaxes = std::ranges::any_of(d.materials, [](const Material& m) {
     const std::string_view key = material::key_of(m.law.value);
-    return key == material::Viscoelastic::key || key == "norton";
+    return key == "norton" || (key != "user" && material::needs_duration(m.law.value));
   });
   const std::string times =
       fmt::format("{}, {}\n", exact(duration / step.increments.value), exact(duration));

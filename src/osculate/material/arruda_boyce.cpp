@@ -30,7 +30,7 @@ ByInvariants by_invariants(const ArrudaBoyce& law, const Invariants& v) {
     power *= first;
     factor *= shrink;
   }
-  w.energy += (std::expm1(2 * v.log_j) / 2 - v.log_j) / law.d;
+  w.volume = (std::expm1(2 * v.log_j) / 2 - v.log_j) / law.d;
   w.dj = 2 * std::sinh(v.log_j) / law.d;
   w.djj = (1 + std::exp(-2 * v.log_j)) / law.d;
   return w;

@@ -13,6 +13,7 @@
 #include "osculate/material/norton.hpp"
 #include "osculate/material/ogden.hpp"
 #include "osculate/material/orthotropic.hpp"
+#include "osculate/material/relaxing.hpp"
 #include "osculate/material/rubber.hpp"
 #include "osculate/material/st_venant_kirchhoff.hpp"
 #include "osculate/material/user_material.hpp"
@@ -22,12 +23,14 @@ namespace osculate::material {
 
 /// One of the laws, as a value. Its copies are made in law.cpp: only what asks which laws there are
 /// (that source, energy.cpp and deck/materials.cpp) has them in its code.
-struct Law : std::variant<LinearElastic, StVenantKirchhoff, NeoHooke, J2Plasticity,
-                          Logarithmic<J2Plasticity>, Norton, Logarithmic<Norton>,
-                          DeformationPlasticity, Logarithmic<DeformationPlasticity>, Rubber, Ogden,
-                          Hyperfoam, ArrudaBoyce, Orthotropic, GreenLagrange<Orthotropic>,
-                          Anisotropic, GreenLagrange<Anisotropic>, Viscoelastic,
-                          Logarithmic<Viscoelastic>, UserMaterial, Logarithmic<UserMaterial>> {
+struct Law
+    : std::variant<LinearElastic, StVenantKirchhoff, NeoHooke, J2Plasticity,
+                   Logarithmic<J2Plasticity>, Norton, Logarithmic<Norton>, DeformationPlasticity,
+                   Logarithmic<DeformationPlasticity>, Rubber, Ogden, Hyperfoam, ArrudaBoyce,
+                   Orthotropic, GreenLagrange<Orthotropic>, Anisotropic, GreenLagrange<Anisotropic>,
+                   Viscoelastic, Logarithmic<Viscoelastic>, UserMaterial, Logarithmic<UserMaterial>,
+                   Relaxing<NeoHooke>, Relaxing<Rubber>, Relaxing<Ogden>, Relaxing<Hyperfoam>,
+                   Relaxing<ArrudaBoyce>> {
   using variant::variant;
   Law();  ///< the first of the list, with its defaults
   Law(const Law&);

@@ -17,9 +17,10 @@ struct Invariants {
 /// Not ok where det C is not positive.
 [[nodiscard]] Invariants invariants_of(const Strain3& e);
 
-/// W and its derivatives by I1, I2 (of `bar_first`, `bar_second`) and J.
+/// W = energy(I1, I2) + volume(J) and its derivatives by I1, I2 (of `bar_first`, `bar_second`) and
+/// J.
 struct ByInvariants {
-  double energy = 0, d1 = 0, d2 = 0, d11 = 0, d12 = 0, d22 = 0, dj = 0, djj = 0;
+  double energy = 0, d1 = 0, d2 = 0, d11 = 0, d12 = 0, d22 = 0, volume = 0, dj = 0, djj = 0;
 };
 /// Such a law says what it is by its invariants.
 template <class T>
@@ -56,7 +57,9 @@ template <OfInvariants T>
 template <OfInvariants T>
 [[nodiscard]] double energy_of(const T& law, const Strain3& e) {
   const Invariants v = invariants_of(e);
-  return v.ok ? by_invariants(law, v).energy : std::numeric_limits<double>::infinity();
+  if (!v.ok) return std::numeric_limits<double>::infinity();
+  const ByInvariants w = by_invariants(law, v);
+  return w.energy + w.volume;
 }
 template <OfInvariants T>
 [[nodiscard]] double energy_of(const T& law, const Strain& e) {

@@ -78,6 +78,11 @@ const T& named(const GreenLagrange<T>& form) {
 }
 
 template <class T>
+const T& named(const Relaxing<T>& form) {
+  return form.law;
+}
+
+template <class T>
 bool depends_on_temperature([[maybe_unused]] const T& law) {
   if constexpr (OverTemperature<T>) return has_tables(law);
   return false;
@@ -118,7 +123,9 @@ bool hooke_at_first(const Law& law) {
 std::span<const Remembered> memory_of(const Law& law) {
   const auto of =
       []<class T>([[maybe_unused]] const T& law_of_type) -> std::span<const Remembered> {
-    if constexpr (requires(const T& m) { remembered_by(named(m)); })
+    if constexpr (requires(const T& m) { remembered_by(m); })
+      return remembered_by(law_of_type);
+    else if constexpr (requires(const T& m) { remembered_by(named(m)); })
       return remembered_by(named(law_of_type));
     else if constexpr (Remembers<T>)
       return T::memory;
@@ -129,8 +136,8 @@ std::span<const Remembered> memory_of(const Law& law) {
 
 bool needs_duration(const Law& law) {
   return std::visit(
-      [](const auto& m) {
-        bool timed = false;
+      []<class T>(const T& m) {
+        bool timed = requires { m.series; };
         for (const auto& p : std::decay_t<decltype(named(m))>::params()) timed = timed || p.timed;
         return timed;
       },
@@ -159,6 +166,19 @@ Law in_finite_strain(const Law& law) {
       return m;
   };
   return std::visit(form, law);
+}
+
+std::optional<Law> relaxing(const Law& law, const Relaxation& series) {
+  const auto form = [&]<class T>([[maybe_unused]] const T& m) -> std::optional<Law> {
+    if constexpr (Relaxable<T>)
+      if constexpr (std::constructible_from<Law, Relaxing<T>>) return Law(Relaxing<T>{m, series});
+    return std::nullopt;
+  };
+  return std::visit(form, law);
+}
+
+bool relaxes_alike(const Law& law) {
+  return std::visit([]<class T>(const T&) { return relaxes_as_one<T>; }, law);
 }
 
 bool directional(const Law& law) {
@@ -216,7 +236,13 @@ std::string_view key_of(const Law& law) {
 }
 
 std::string range_problem(const Law& law) {
-  return std::visit([](const auto& m) { return core::range_problem(named(m)); }, law);
+  const auto of = [](const auto& m) {
+    std::string problem = core::range_problem(named(m));
+    if constexpr (requires { m.series; })
+      if (problem.empty()) problem = core::range_problem(m.series);
+    return problem;
+  };
+  return std::visit(of, law);
 }
 
 Response response(const Law& law, const Strain& strain, const Memory& memory) {

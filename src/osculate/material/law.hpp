@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,6 +24,10 @@ namespace osculate::material {
 /// Lagrange's), and its form for that. Other laws stay as they are.
 [[nodiscard]] bool has_finite_form(const Law& law);
 [[nodiscard]] Law in_finite_strain(const Law& law);
+/// The law whose stresses relax by Prony series (relaxing.hpp); none: of this one they do not.
+[[nodiscard]] std::optional<Law> relaxing(const Law& law, const Relaxation& series);
+/// Of such a law shape and volume relax by the same series alone.
+[[nodiscard]] bool relaxes_alike(const Law& law);
 /// The stress depends on where the axes of the material point (Memory::axes).
 [[nodiscard]] bool directional(const Law& law);
 /// Some constants are tables over the temperature (Memory::temperature).

@@ -19,7 +19,7 @@ ByInvariants by_invariants(const Rubber& c, const Invariants& v) {
   int n = 2;
   for (const double d : {c.d1, c.d2, c.d3}) {
     if (d > 0) {
-      w.energy += power * square / d;
+      w.volume += power * square / d;
       w.dj += n * power * j / d;
       w.djj += n * (n - 1) * power / d;
     }

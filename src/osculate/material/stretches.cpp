@@ -27,8 +27,9 @@ Isotropic from_moduli(double mu, double bulk) {
   return {9 * bulk * mu / (3 * bulk + mu), (3 * bulk - 2 * mu) / (2 * (3 * bulk + mu))};
 }
 
-/// sum (J - 1)^(2 k) / d_k and what it is by ln J.
-void add_volume(const Ogden& law, double log_j, AlongAxes& out) {
+/// sum (J - 1)^(2 k) / d_k.
+OfVolume volume_of(const Ogden& law, double log_j) {
+  OfVolume out;
   const double j = std::exp(log_j), change = std::expm1(log_j);
   double power = 1, first = 0, second = 0;  // (J - 1)^(2 k - 2), dU/dJ, d2U/dJ2
   int n = 2;
@@ -41,8 +42,9 @@ void add_volume(const Ogden& law, double log_j, AlongAxes& out) {
     power *= change * change;
     n += 2;
   }
-  out.stress.array() += j * first;
-  out.slope.array() += j * first + j * j * second;
+  out.pull = j * first;
+  out.slope = j * first + j * j * second;
+  return out;
 }
 
 /// Every term with a factor has a power; together they resist shear.
@@ -65,11 +67,11 @@ std::optional<core::Fault> fault_of(const Terms& terms) {
 Response3 response_of_axes(const LogarithmicStrain& strain, const AlongAxes& law) {
   const PrincipalStrain e = strain.principal();
   const Vec3 c = (2 * e.value).array().exp();
-  const Vec3 s = law.stress.cwiseQuotient(c);
+  const Vec3 s = (law.stress.array() + law.volume.pull).matrix().cwiseQuotient(c);
   Tangent3 d = Tangent3::Zero();
   for (Eigen::Index i = 0; i < 3; ++i)
     for (Eigen::Index j = 0; j < 3; ++j)
-      d(i, j) = (law.slope(i, j) / c[j] - (i == j ? 2 * s[i] : 0)) / c[i];
+      d(i, j) = ((law.slope(i, j) + law.volume.slope) / c[j] - (i == j ? 2 * s[i] : 0)) / c[i];
   constexpr std::array<std::array<Eigen::Index, 2>, 3> shears{{{0, 1}, {1, 2}, {0, 2}}};
   for (std::size_t k = 0; k < 3; ++k) {
     const auto [i, j] = shears[k];
@@ -101,7 +103,7 @@ AlongAxes along_axes(const Ogden& law, const PrincipalStrain& e) {
             ((i == j ? 1 + less_one[i] : 0) - (1 + less_one[i] + less_one[j] - mean) / 3);
     add_secants({factor, alpha, log_j / 3}, e, out);
   }
-  add_volume(law, log_j, out);
+  out.volume = volume_of(law, log_j);
   return out;
 }
 

@@ -8,12 +8,18 @@
 
 namespace osculate::material {
 
-/// Energy of a law and its derivatives by the logarithms eps_i of the principal stretches.
+/// Energy of what depends on the volume alone and its derivatives by ln J.
+struct OfVolume {
+  double energy = 0, pull = 0, slope = 0;
+};
+/// Energy of a law and its derivatives by the logarithms eps_i of the principal stretches, but for
+/// what depends on the volume alone.
 struct AlongAxes {
   double energy = 0;
   Vec3 stress = Vec3::Zero();            ///< t_i = dW/d(eps_i)
   Mat<3, 3> slope = Mat<3, 3>::Zero();   ///< dt_i/d(eps_j)
   Mat<3, 3> secant = Mat<3, 3>::Zero();  ///< (t_i - t_j)/(eps_i - eps_j), its limit where they meet
+  OfVolume volume{};
 };
 /// One term A exp(alpha (eps_i - shift)) of the t_i; what is the same for all i is none.
 struct StretchTerm {
@@ -68,8 +74,9 @@ template <ByStretches T>
 template <ByStretches T>
 [[nodiscard]] double energy_of(const T& law, const Strain3& e) {
   const LogarithmicStrain strain(e);
-  return strain.ok() ? along_axes(law, strain.principal()).energy
-                     : std::numeric_limits<double>::infinity();
+  if (!strain.ok()) return std::numeric_limits<double>::infinity();
+  const AlongAxes w = along_axes(law, strain.principal());
+  return w.energy + w.volume.energy;
 }
 template <ByStretches T>
 [[nodiscard]] double energy_of(const T& law, const Strain& e) {

@@ -1,15 +1,12 @@
 #include "osculate/material/viscoelastic.hpp"
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "osculate/material/radial_return.hpp"
 
 namespace osculate::material {
 namespace {
-
-/// (1 - exp(-x)) / x : what is left, in the mean, of what comes evenly.
-double left_in_the_mean(double x) { return x > 0 ? -std::expm1(-x) / x : 1; }
 
 /// Products of a branch at the beginning of an increment and of the change of the strain.
 struct Squares {
@@ -40,12 +37,6 @@ double relaxed_square(double x, const Squares& of) {
   return x * sum;
 }
 
-double shares_of(const core::Table& series) {
-  double sum = 0;
-  for (const auto& term : series) sum += term[0];
-  return sum;
-}
-
 /// Strain, less what has relaxed, of all branches of one modulus, weighted by their shares.
 template <int N>
 struct Relaxed {
@@ -59,7 +50,7 @@ template <int N, class Product>
 Relaxed<N> relaxed(const core::Table& series, double duration, const Vec<N>& now,
                    const Vec<N>& change, const double* before, double* next,
                    const Product& product) {
-  const double rest = 1 - shares_of(series);
+  const double rest = remaining(series);
   Relaxed<N> out{rest * now, rest, 0, rest * product(now, now)};
   for (std::size_t i = 0; i < series.size(); ++i) {
     const auto [share, time] = series[i];
@@ -145,25 +136,9 @@ double dissipated_by(const Viscoelastic&, const double* state) { return state ? 
 
 std::span<const Remembered> remembered_by(const Viscoelastic& law) {
   return std::span(Viscoelastic::memory)
-      .first(Viscoelastic::own + Viscoelastic::each * std::max(law.shear.size(), law.bulk.size()));
+      .first(Viscoelastic::own + Viscoelastic::each * terms_of(law.shear, law.bulk));
 }
 
-std::optional<core::Fault> Viscoelastic::fault() const {
-  if (shear.empty() && bulk.empty())
-    return core::Fault{"give `shear` or `bulk`: without, nothing relaxes"};
-  const auto wrong = [](const core::Table& series,
-                        std::string_view key) -> std::optional<core::Fault> {
-    for (std::size_t i = 0; i < series.size(); ++i) {
-      if (!(series[i][0] >= 0)) return core::Fault{"shares are not negative", key, i};
-      if (!(series[i][1] > 0)) return core::Fault{"times are greater than 0", key, i};
-    }
-    if (series.size() > most) return core::Fault{"a series has at most 20 terms", key, {}};
-    if (!(shares_of(series) < 1))
-      return core::Fault{"the sum of the shares is less than 1: something remains", key, {}};
-    return std::nullopt;
-  };
-  if (auto fault = wrong(shear, "shear")) return fault;
-  return wrong(bulk, "bulk");
-}
+std::optional<core::Fault> Viscoelastic::fault() const { return fault_of_series(shear, bulk); }
 
 }  // namespace osculate::material

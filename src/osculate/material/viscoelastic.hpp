@@ -5,6 +5,7 @@
 
 #include "osculate/material/linear_elastic.hpp"
 #include "osculate/material/memory.hpp"
+#include "osculate/material/prony.hpp"
 
 namespace osculate::material {
 
@@ -28,20 +29,13 @@ struct Viscoelastic {
       "Linear viscoelasticity: shear and bulk modulus relax by Prony series. With kinematics: "
       "finite the strain is the logarithmic one. Every step needs a duration.";
   static constexpr bool finite_strain = false, large_strain = false, logarithmic = true;
-  static constexpr std::size_t most = 20;  ///< terms of a series
-  static constexpr std::size_t own = 7;    ///< numbers beside those of the terms
-  static constexpr std::size_t each = 7;   ///< of a term: six of shear, one of the bulk
+  static constexpr std::size_t own = 7;   ///< numbers beside those of the terms
+  static constexpr std::size_t each = 7;  ///< of a term: six of shear, one of the bulk
   /// What is dissipated, the strain, and the terms.
-  static constexpr std::array<Remembered, own + each * most> memory{
+  static constexpr std::array<Remembered, own + each * Relaxation::most> memory{
       {{"CDENS", "energy dissipated by creep, per volume", false}}};
   double young = 0, poisson = 0, density = 0;
   core::Table shear = {}, bulk = {};  ///< g_i, k_i and tau_i
-  static constexpr core::PointWords shear_points{
-      "One term: the share of the shear modulus that relaxes, and the time in which it does.",
-      "A number.", "[0.3, 10]", 1};
-  static constexpr core::PointWords bulk_points{
-      "One term: the share of the bulk modulus that relaxes, and the time in which it does.",
-      "A number.", "[0.1, 10]", 1};
   static constexpr std::array<core::Param<Viscoelastic>, 5> params();
   /// What is wrong with the series.
   [[nodiscard]] std::optional<core::Fault> fault() const;
@@ -62,7 +56,7 @@ constexpr std::array<core::Param<Viscoelastic>, 5> Viscoelastic::params() {
            .required = false,
            .example = "[[0.3, 1], [0.2, 10]]",
            .otherwise = "it does not relax",
-           .points = &Viscoelastic::shear_points,
+           .points = &Relaxation::shear_points,
            .timed = true},
           {.key = "bulk",
            .unit = "1, time",
@@ -71,7 +65,7 @@ constexpr std::array<core::Param<Viscoelastic>, 5> Viscoelastic::params() {
            .required = false,
            .example = "[[0.1, 10]]",
            .otherwise = "it does not relax",
-           .points = &Viscoelastic::bulk_points,
+           .points = &Relaxation::bulk_points,
            .timed = true}};
 }
 

@@ -40,7 +40,7 @@ TEST(BrokenModels, UnknownKeysNameTheNearest) {
        "st_venant_kirchhoff, neo_hooke, elastoplastic, norton, deformation_plasticity, rubber, "
        "ogden, hyperfoam, arruda_boyce, "
        "orthotropic, anisotropic, viscoelastic, "
-       "user, expansion"
+       "user, expansion, relaxation"
        "; a material is NAME: {LAW: {E: ..., nu: ...}} with one of the laws linear_elastic, "
        "st_venant_kirchhoff, neo_hooke, elastoplastic, norton, deformation_plasticity, rubber, "
        "ogden, hyperfoam, arruda_boyce, "

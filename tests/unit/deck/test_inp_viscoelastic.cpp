@@ -1,4 +1,5 @@
 // *VISCOELASTIC of decks.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -47,6 +48,52 @@ TEST(InpViscoelastic, TermsAreThoseOfTwoSeries) {
   EXPECT_EQ(law.bulk, (core::Table{{0.2, 30}, {0.3, 7}}));
 }
 
+template <class T>
+material::Relaxing<T> rubber_polymer(const std::string& material) {
+  return std::get<material::Relaxing<T>>(
+      parse_model(polymer_deck(material).root, "a.inp").materials.at(0).law.value);
+}
+
+// Constants are those of the end but with MODULI=INSTANTANEOUS; half of the shear and of the bulk
+// modulus remain.
+TEST(InpViscoelastic, RubberRelaxes) {
+  const auto at_once = rubber_polymer<material::Rubber>(
+      "*HYPERELASTIC, MOONEY-RIVLIN, MODULI=INSTANTANEOUS\n1., 0.5, 0.1\n*DENSITY\n3.\n" + series);
+  EXPECT_EQ(at_once.law.c10, 1);
+  EXPECT_EQ(at_once.law.c01, 0.5);
+  EXPECT_EQ(at_once.law.d1, 0.1);
+  EXPECT_EQ(at_once.law.density, 3);
+  EXPECT_EQ(at_once.series.shear, (core::Table{{0.25, 2}, {0.25, 30}}));
+  EXPECT_EQ(at_once.series.bulk, (core::Table{{0.2, 30}, {0.3, 7}}));
+  for (const char* const moduli : {"", ", MODULI=LONG TERM"}) {
+    const auto rubber = rubber_polymer<material::Rubber>(
+        fmt::format("*HYPERELASTIC, MOONEY-RIVLIN{}\n1., 0.5, 0.1\n", moduli) + series);
+    EXPECT_EQ(rubber.law.c10, 2);
+    EXPECT_EQ(rubber.law.c01, 1);
+    EXPECT_EQ(rubber.law.d1, 0.05);
+  }
+  const auto usual =
+      rubber_polymer<material::Rubber>("*HYPERELASTIC, NEO HOOKE\n1., 0.\n" + series);
+  EXPECT_EQ(usual.law.d1, 0.1 / 2 / 2);
+  const auto ogden =
+      rubber_polymer<material::Ogden>("*HYPERELASTIC, OGDEN, N=1\n1., 2., 0.1\n" + series);
+  EXPECT_EQ(ogden.law.mu1, 2);
+  EXPECT_EQ(ogden.law.alpha1, 2);
+  EXPECT_EQ(ogden.law.d1, 0.05);
+  const auto chains =
+      rubber_polymer<material::ArrudaBoyce>("*HYPERELASTIC, ARRUDA-BOYCE\n1., 3., 0.1\n" + series);
+  EXPECT_EQ(chains.law.mu, 2);
+  EXPECT_EQ(chains.law.lambda_m, 3);
+  EXPECT_EQ(chains.law.d, 0.05);
+  const auto foam = rubber_polymer<material::Hyperfoam>(
+      "*HYPERFOAM\n1., 2., 0.1\n*VISCOELASTIC, TIME=PRONY\n0.5, 0.5, 3.\n");
+  EXPECT_EQ(foam.law.mu1, 2);
+  EXPECT_EQ(foam.law.nu1, 0.1);
+  EXPECT_EQ(foam.series.shear, foam.series.bulk);
+  EXPECT_THAT(polymer_deck("*HYPERELASTIC, NEO HOOKE\n1., 0.1\n" + series).notes,
+              Contains(HasSubstr("*VISCOELASTIC of rubber is Simo's form")));
+}
+
 // As in Abaqus, MODULI=LONG TERM is what is meant if nothing is said.
 TEST(InpViscoelastic, ModuliAreThoseOfTheEnd) {
   for (const char* const elastic : {"*ELASTIC\n", "*ELASTIC, MODULI=LONG TERM\n"}) {
@@ -92,8 +139,10 @@ TEST(InpViscoelastic, WhatIsNotSupported) {
               HasSubstr("expected a relaxation time greater than 0"));
   EXPECT_THAT(refused_polymer(elastic + series + "*PLASTIC\n1., 0.\n"),
               HasSubstr("*PLASTIC: of a material with *VISCOELASTIC this is not supported"));
-  EXPECT_THAT(refused_polymer("*HYPERELASTIC, NEO HOOKE\n1., 0.1\n" + series),
-              HasSubstr("of a material with *VISCOELASTIC this is not supported"));
+  EXPECT_THAT(refused_polymer("*HYPERFOAM\n1., 2., 0.1\n" + series),
+              HasSubstr("of *HYPERFOAM shape and volume relax alike: each line has g = k"));
+  EXPECT_THAT(refused_polymer("*HYPERELASTIC, NEO HOOKE, MODULI=SHORT\n1., 0.1\n" + series),
+              HasSubstr("MODULI=SHORT is not supported: INSTANTANEOUS or LONG TERM"));
   EXPECT_THAT(refused_polymer("*ELASTIC\n100., 0.25, 0.\n90., 0.25, 10.\n" + series),
               HasSubstr("numbers that depend on the temperature are not supported"));
   EXPECT_THAT(refused_polymer("*ELASTIC, MODULI=SHORT\n100., 0.25\n" + series),

@@ -177,7 +177,7 @@ TEST(Params, OfAllMaterialsAreInTheModelFile) {
     }
     ++laws;
   });
-  EXPECT_EQ(one.keys.size(), static_cast<std::size_t>(laws) + 1);  // and the expansion
+  EXPECT_EQ(one.keys.size(), static_cast<std::size_t>(laws) + 2);  // expansion, relaxation
 }
 
 }  // namespace

@@ -277,7 +277,12 @@ TEST(ToInp, MaterialsGoThereAndBack) {
        "rubber: {c10: 1, c01: 0.5, d1: 0.01}",
        "rubber: {c10: 1, c20: -0.1, c30: 0.01, d1: 0.01, d2: 0.02}",
        "ogden: {mu1: 1, alpha1: 2, mu2: -0.5, alpha2: -3, d1: 0.01}",
-       "hyperfoam: {mu1: 1, alpha1: 2, nu1: 0.2}"}) {
+       "hyperfoam: {mu1: 1, alpha1: 2, nu1: 0.2}",
+       "rubber: {c10: 1, d1: 0.01}, relaxation: {shear: [[0.25, 1], [0.5, 2]], bulk: [[0.125, 3]]}",
+       "ogden: {mu1: 1, alpha1: 2, d1: 0.01}, relaxation: {bulk: [[0.125, 3]]}",
+       "arruda_boyce: {mu: 1, lambda_m: 3, d: 0.01}, relaxation: {shear: [[0.5, 3]]}",
+       "hyperfoam: {mu1: 1, alpha1: 2, nu1: 0.2}, relaxation: {shear: [[0.5, 3]], bulk: [[0.5, "
+       "3]]}"}) {
     const bool warm = std::string(law).find("[[") < std::string::npos;
     const std::string text =
         cube(law, warm ? "initial_temperature: [{on: c, value: 20}]\n" : "",

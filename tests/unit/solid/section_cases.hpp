@@ -25,15 +25,21 @@ template <class T>
 T& constants(material::GreenLagrange<T>& form) {
   return form.law;
 }
+template <class T>
+T& constants(material::Relaxing<T>& form) {
+  return form.law;
+}
 
-/// Every law, and every form of one for finite strains. Those that yield do so where they are made
-/// to: here they are elastic.
+/// Every law, and every form of one for finite strains or with relaxation. Those that yield do so
+/// where they are made to: here they are elastic.
 template <class Visit>
 void for_each_form(const Visit& visit) {
   material::for_each_law([&](auto law) {
     osculate::testing::set_elastic(law, 7, 0.3);
     visit(law);
     if (material::has_finite_form(law)) visit(material::in_finite_strain(law));
+    const material::Relaxation alike{{{0.3, 1}, {0.2, 5}}, {{0.3, 1}, {0.2, 5}}};
+    if (const auto relaxing = material::relaxing(law, alike)) visit(*relaxing);
   });
 }
 
