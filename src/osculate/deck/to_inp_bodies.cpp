@@ -184,7 +184,15 @@ void write_rigid(const Description& d, InpMesh<Dim>& mesh, Leaves& leaves, std::
     const auto* const shape = std::get_if<SetShape>(&rigid.shape);
     if (!shape) continue;  // its keys have no counterpart
     const std::string path = fmt::format("rigid.{}", rigid.name.value);
-    for (const char* const key : {".set", ".reference", ".reference_node", ".rotation_node"})
+    const bool small = rigid.kinematics && rigid.kinematics->value == Kinematics::small;
+    if (small == mesh.finite())
+      throw core::InputError(
+          rigid.kinematics ? rigid.kinematics->mark : rigid.name.mark,
+          fmt::format(
+              "a rigid body in a deck turns as the strain of its cells is: `kinematics: {}`",
+              small ? "finite" : "small"));
+    for (const char* const key :
+         {".set", ".kinematics", ".reference", ".reference_node", ".rotation_node"})
       leaves.take(path + key);
     const auto control = mesh.control(rigid.name.value);
     out += fmt::format("*RIGID BODY, NSET={}, REF NODE={}, ROT NODE={}\n",

@@ -299,12 +299,11 @@ void BasicSystem<Dim>::Impl::Explicit::sum_forces() {
 template <int Dim>
 void BasicSystem<Dim>::Impl::Explicit::gather(Vector& forces) const {
   for (std::size_t b = 0; b < now.rigid.size(); ++b) {
-    const Vec<Dim> center = now.rigid[b].center();
     Vec<Dim> force = Vec<Dim>::Zero();
     Vec<body::rotations<Dim>> moment = Vec<body::rotations<Dim>>::Zero();
     for (const Index node : system.model.rigid[b].nodes) {
       const Vec<Dim> of_node = forces.segment<Dim>(Dim * node);
-      const Vec<Dim> arm = x[static_cast<std::size_t>(node)] - center;
+      const Vec<Dim> arm = body::arm_of(now.rigid[b], x[static_cast<std::size_t>(node)]);
       force += of_node;
       if constexpr (Dim == 2)
         moment[0] += turn(arm).dot(of_node);

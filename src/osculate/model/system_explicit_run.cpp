@@ -135,7 +135,7 @@ Eigen::VectorXd BasicSystem<Dim>::Impl::Explicit::inertia_forces(const Vector& a
       if (!turns[b]) continue;
       const Dof first = system.dofs.body_dof(static_cast<Index>(b), 3);
       const Vec3 moment = damping_force.segment<3>(first) + turning[b].moment;
-      out.segment<3>(first) = body::rotation_tangent(now.rigid[b].rotation).transpose() * moment;
+      out.segment<3>(first) = body::spin_tangent(now.rigid[b]).transpose() * moment;
     }
   return out;
 }
@@ -350,7 +350,7 @@ void BasicSystem<Dim>::Impl::move_with_bodies(const State& s, Rates& rates) cons
     const Index b = dofs.body_of(node);
     if (b < 0) continue;
     const Vec<Dim> arm =
-        x[static_cast<std::size_t>(node)] - s.rigid[static_cast<std::size_t>(b)].center();
+        body::arm_of(s.rigid[static_cast<std::size_t>(b)], x[static_cast<std::size_t>(node)]);
     const Dof first = dofs.body_dof(b, 0);
     Vec<Dim> v = rates.velocity.template segment<Dim>(first);
     if constexpr (Dim == 2)

@@ -267,8 +267,10 @@ void BasicSystem<Dim>::Impl::assemble_terms(const State& committed, const Trial&
   loads.add_dead_loads(step, fraction, last.forces);
   loads.add_gravity(step, fraction, motion ? &motion->inertia : nullptr, last.forces);
   if (timed()) motion->add_inertia(now, to);
-  turn_moments(model, now, with_tangent && on(Term::rigid), to);
-  if (with_tangent && on(Term::rigid)) add_rigid_geometry<Dim>(model, now, x, total_force(), to);
+  const SmallRotations small = with_stresses ? SmallRotations::turn : SmallRotations::linear;
+  turn_moments(model, now, with_tangent && on(Term::rigid), to, small);
+  if (with_tangent && on(Term::rigid))
+    add_rigid_geometry<Dim>(model, now, x, total_force(), to, small);
   if (with_tangent) {
     assembler.add_prescribed_diagonal(1.0);
     if (resistance.share > 0) resistance.add(resistance.share, assembler, builder);

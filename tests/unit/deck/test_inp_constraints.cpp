@@ -107,6 +107,30 @@ TEST(InpConstraints, RigidBodyIsMovedAndTurnedByItsNodes) {
   EXPECT_LT((turned.displacement(1) - Vec3(2, 1, 0)).norm(), 1e-12);
 }
 
+/// Without NLGEOM a rigid body moves by theta x r, which strains no cell of small strain.
+TEST(InpConstraints, RigidBodiesTurnLinearlyWithoutNlgeom) {
+  const Vec3 theta(0.1, -0.05, 0.08), far(0.2, 0.1, -0.3);
+  const auto places = [](const DeckRun& run) { return run.built.model.reference; };
+  for (const std::string body :
+       {"*RIGID BODY, NSET=FINISH, REF NODE=901, ROT NODE=902\n",
+        "*COUPLING, REF NODE=901, SURFACE=TIP, CONSTRAINT NAME=C\n*KINEMATIC\n1, 6\n",
+        "*COUPLING, REF NODE=901, SURFACE=TIP, CONSTRAINT NAME=C\n*DISTRIBUTING\n1, 6\n"}) {
+    const bool by_nodes = body.starts_with("*RIGID");
+    const int turning = by_nodes ? 902 : 901, first = by_nodes ? 1 : 4;
+    std::string moves = "*BOUNDARY\n";
+    for (int i = 0; i < 3; ++i)
+      moves += fmt::format("901, {0}, {0}, {1}\n{2}, {3}, {3}, {4}\n", i + 1, far[i], turning,
+                           first + i, theta[i]);
+    const DeckRun run = run_deck(bar(2) + body + step(moves));
+    const Vec3 centre = places(run)[static_cast<std::size_t>(run.node(901))];
+    for (const int number : {1, 2, 3, 4, 11, 12, 13, 14, 21, 22, 23, 24}) {
+      const Vec3 arm = places(run)[static_cast<std::size_t>(run.node(number))] - centre;
+      EXPECT_LT((run.displacement(number) - far - theta.cross(arm)).norm(), 1e-12) << body;
+    }
+    EXPECT_LT(run.reaction.at(0).norm(), 1e-10) << body;
+  }
+}
+
 TEST(InpConstraints, KinematicCouplingIsARigidBody) {
   const std::string text = bar(2) +
                            "*COUPLING, REF NODE=901, SURFACE=TIP, CONSTRAINT NAME=C\n*KINEMATIC\n"
