@@ -252,6 +252,14 @@ bool is_sound(la::LinearSolver& solver, NewtonResult<Trial>& result) {
   return false;
 }
 
+/// How many iterations there may be at the last one of `most`: one more where the solver of that
+/// one has told at its end that it was none, others where they gain.
+template <class Trial>
+int allowed(int most, int more, int limit, bool unsound, const NewtonResult<Trial>& result) {
+  if (unsound) return most + 1;
+  return most < limit && gains(result.iterations) ? std::min(most + more, limit) : most;
+}
+
 }  // namespace detail
 
 /// One increment by Newton's method from a committed state to `time`.
@@ -313,15 +321,15 @@ template <System S>
     if (!known) system.evaluate(committed, result.trial, time, true, result.evaluation);
     if (result.total.size() == 0) result.total.setZero(du.size());
     result.total += step * du;
-    const bool ended = detail::conclude(judge, du, step, energy_before, result, former) &&
-                       detail::is_sound(solver, result);
+    const bool last = detail::conclude(judge, du, step, energy_before, result, former);
+    const bool ended = last && detail::is_sound(solver, result);
     if (known && !ended) system.evaluate(committed, result.trial, time, true, result.evaluation);
     if (peeling.turns(system, committed, time, ended, result))
       judge.begin_again();
     else if (ended)
       return result;
-    if (i == most + peeling.iterations() && most < limit && detail::gains(result.iterations))
-      most = std::min(most + more, limit);
+    if (i == most + peeling.iterations())
+      most = detail::allowed(most, more, limit, last && !ended, result);
   }
   detail::fail(result, Outcome::not_converged,
                "not converged after " + std::to_string(most) + " iterations");
