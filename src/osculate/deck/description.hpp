@@ -358,6 +358,7 @@ struct Coupling {
   core::SourceMark mark;
   Name on, rigid;
   std::array<bool, 3> of{};
+  std::optional<Marked<material::Orientation>> along{};  ///< axes of `of`; absent: x, y and z
 
   [[nodiscard]] bool is_mean() const { return of == std::array<bool, 3>{}; }
 };
