@@ -8,7 +8,7 @@ Vec3 total_rotation(const RigidMotion3& motion) {
 }
 
 RigidMotion3 rebased(const RigidMotion3& motion, double angle) {
-  if (!(motion.rotation.norm() > angle)) return motion;
+  if (motion.small || !(motion.rotation.norm() > angle)) return motion;
   RigidMotion3 out = motion;
   out.turned = total_rotation(motion);
   const Mat<3, 3> b = motion.orientation();
@@ -19,6 +19,7 @@ RigidMotion3 rebased(const RigidMotion3& motion, double angle) {
 }
 
 Vec3 turn_between(const RigidMotion3& from, const RigidMotion3& to) {
+  if (from.small) return to.rotation - from.rotation;
   if (from.rotation.isZero(0) && from.base == to.base) return to.rotation;
   return rotation_vector(to.orientation() * from.orientation().transpose());
 }

@@ -60,11 +60,11 @@ RotationRates<2> with_contact(const RotationRates<2>& without, const Mat<1, 1>& 
 }
 
 Vec3 rotation_rate(const RigidMotion3& motion, const Vec3& spin) {
-  return rotation_tangent(motion.rotation).fullPivLu().solve(spin);
+  return spin_tangent(motion).fullPivLu().solve(spin);
 }
 
 Vec3 moment_of(const RigidMotion3& motion, const Vec3& force) {
-  return Mat<3, 3>(rotation_tangent(motion.rotation).transpose()).fullPivLu().solve(force);
+  return Mat<3, 3>(spin_tangent(motion).transpose()).fullPivLu().solve(force);
 }
 
 RotationForce<3> rotation_force(const RigidMotion3& motion, const Vec3& moment,

@@ -88,10 +88,19 @@ void add_pretensions(const BuildContext<Dim>& c, std::vector<MarkedEquation>& al
   }
 }
 
+/// The direction of a displacement that follows a body.
+template <int Dim>
+Vec<Dim> axis_of(const BuildContext<Dim>& c, const Coupling& coupling, Index node, int direction) {
+  if (!coupling.along) return Vec<Dim>::Unit(direction);
+  const Mat<3, 3> axes = material::axes_at(coupling.along->value,
+                                           c.model().mesh.nodes[static_cast<std::size_t>(node)]);
+  return axes.col(direction).template head<Dim>();
+}
+
 /// Some displacements of nodes follow a rigid body, which turns little.
 ///
-/// Formula    u_i = U_i + sum_k theta_k (e_k x (X - X_b))_i
-/// Tested by  tests/unit/deck/test_couplings.cpp
+/// Formula    d . u = d . (U + sum_k theta_k e_k x (X - X_b)) , d the axis of x, y, z or of the
+/// node Tested by  tests/unit/deck/test_couplings.cpp
 template <int Dim>
 void add_followers(const BuildContext<Dim>& c, std::vector<MarkedEquation>& all) {
   for (const Coupling& coupling : c.description.coupling) {
@@ -103,18 +112,23 @@ void add_followers(const BuildContext<Dim>& c, std::vector<MarkedEquation>& all)
         throw core::InputError(coupling.mark,
                                "a coupling of some displacements is one of small rotations: not "
                                "with sections of finite kinematics");
+    if (coupling.along) require_axes(coupling.along->value, coupling.along->mark);
     const Index body = c.rigid_index.at(coupling.rigid.value);
     const Vec<Dim> centre = c.model().rigid[static_cast<std::size_t>(body)].reference;
     for (const Index node : moving_nodes(c, coupling.on, Idle::refused))
       for (int i = 0; i < Dim; ++i) {
         if (!coupling.of[static_cast<std::size_t>(i)]) continue;
+        const Vec<Dim> along = axis_of(c, coupling, node, i);
         model::Equation equation;
-        add_displacement(c, node, Vec<Dim>(Vec<Dim>::Unit(i)), 1.0, equation);
-        add_term(equation, body_dof(c.model(), body, static_cast<Component>(i)), -1.0);
+        add_displacement(c, node, along, 1.0, equation);
+        for (int j = 0; j < Dim; ++j)
+          if (along[j] != 0)
+            add_term(equation, body_dof(c.model(), body, static_cast<Component>(j)), -along[j]);
         Vec3 arm = Vec3::Zero();
         arm.head<Dim>() = c.model().reference[static_cast<std::size_t>(node)] - centre;
         for (int k = Dim == 2 ? 2 : 0; k < 3; ++k)
-          if (const double moves = Vec3(Vec3::Unit(k).cross(arm))[i]; moves != 0)
+          if (const double moves = Vec3(Vec3::Unit(k).cross(arm)).head<Dim>().dot(along);
+              moves != 0)
             add_term(equation, body_dof(c.model(), body, static_cast<Component>(3 + k)), -moves);
         all.push_back({std::move(equation), coupling.mark, true});
       }

@@ -28,9 +28,13 @@ std::vector<std::size_t> pairs_called(const BuildContext<Dim>& c, const Name& na
   return found;
 }
 
-void refuse_automatic(const core::SourceMark& mark, const char* what) {
+/// A law without a penalty keeps that of the pair, if that is of its kind.
+double kept_penalty(const core::SourceMark& mark, std::optional<double> of_pair, const char* what,
+                    const char* why) {
+  if (of_pair) return *of_pair;
   throw core::InputError(
-      mark, fmt::format("a {} that changes in a step needs its penalty as a number", what));
+      mark,
+      fmt::format("a {} that changes in a step needs its penalty as a number: {}", what, why));
 }
 
 /// What holds the points of a pair then; those that are tied were so from the start.
@@ -62,15 +66,23 @@ void apply_damping(const BuildContext<Dim>& c, const ContactChange& change,
 
 template <int Dim>
 void apply(const BuildContext<Dim>& c, const ContactChange& change,
-           const pairing::PairDefinition<Dim>& pair, model::BasicPairChange<Dim>& to) {
+           const model::BasicContactPair<Dim>& whole, model::BasicPairChange<Dim>& to) {
+  const pairing::PairDefinition<Dim>& pair = whole.definition;
   if (change.active) to.active = *change.active;
   if (change.normal) {
     const NormalDescription& n = *change.normal;
     if (n.damping)
       throw core::InputError(n.damping->mark,
                              "damping changes by the key `damping` of the change, not by `normal`");
-    if (n.law.automatic) refuse_automatic(n.law.stiffness, "normal law");
     to.normal = n.law.law;
+    if (n.law.automatic) {
+      const double penalty = contact::penalty_of(pair.normal);
+      to.normal = contact::with_stiffness(
+          to.normal,
+          kept_penalty(n.law.stiffness,
+                       whole.automatic && penalty > 0 ? std::optional(penalty) : std::nullopt,
+                       "normal law", "that of the pair is none of the bodies'"));
+    }
     to.separation = separation_of(n, pair);
   }
   apply_damping(c, change, to);
@@ -78,13 +90,19 @@ void apply(const BuildContext<Dim>& c, const ContactChange& change,
   to.friction.reset();
   if (!*change.friction) return;
   const GivenLaw<contact::FrictionLaw>& friction = **change.friction;
-  if (friction.automatic) refuse_automatic(friction.stiffness, "friction law");
+  contact::FrictionLaw law = friction.law;
+  if (friction.automatic)
+    law = contact::with_stiffness(
+        law, kept_penalty(
+                 friction.stiffness,
+                 pair.friction ? std::optional(contact::stiffness(*pair.friction)) : std::nullopt,
+                 "friction law", "the pair has no friction that has one"));
   StepRange acts =
       steps_of_law(c.description, change.pair.value, to.step + 1, &ContactChange::friction);
   acts.first = to.step;
   check_durations(c.description, friction.timed, "friction that depends on speed", acts);
   const bool may_part = pairing::is<pairing::MayPart>(to.separation);
-  to.friction = may_part ? contact::parting(friction.law) : friction.law;
+  to.friction = may_part ? contact::parting(law) : law;
 }
 
 /// Fails where the pair as it is then would have been refused.
@@ -131,7 +149,8 @@ void build_pair_changes(BuildContext<Dim>& c) {
   for (std::size_t s = 0; s < c.description.steps.size(); ++s)
     for (const ContactChange& change : c.description.steps[s].contact)
       for (const std::size_t p : pairs_called(c, change.pair)) {
-        const pairing::PairDefinition<Dim>& pair = c.model().pairs[p].definition;
+        const model::BasicContactPair<Dim>& whole = c.model().pairs[p];
+        const pairing::PairDefinition<Dim>& pair = whole.definition;
         const auto [at, fresh] = running.try_emplace(p);
         model::BasicPairChange<Dim>& now = at->second;
         if (fresh) now = {s, p, true, pair.normal, pair.friction, pair.separation, pair.damping};
@@ -139,7 +158,7 @@ void build_pair_changes(BuildContext<Dim>& c) {
           throw core::InputError(change.mark,
                                  fmt::format("'{}' changes twice in this step", change.pair.value));
         now.step = s;
-        apply(c, change, pair, now);
+        apply(c, change, whole, now);
         check_changed(change, pair, now);
         c.model().pair_changes.push_back(now);
       }

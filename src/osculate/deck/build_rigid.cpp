@@ -87,6 +87,7 @@ template <int Dim>
 model::BasicRigidBody<Dim> rigid_body(BuildContext<Dim>& c, const Rigid& rigid, Index index) {
   model::BasicRigidBody<Dim> body;
   body.name = rigid.name.value;
+  body.small = rigid.kinematics && rigid.kinematics->value == Kinematics::small;
   if (c.model().mesh.find_set(body.name))
     throw core::InputError(
         rigid.name.mark,

@@ -9,7 +9,7 @@
 namespace osculate::deck {
 namespace {
 
-/// Nodes of rigid bodies, contacts, prescriptions, equations and springs.
+/// Nodes of rigid bodies and of what follows them, contacts, prescriptions, equations and springs.
 template <int Dim>
 std::vector<bool> held_nodes(const model::BasicModel<Dim>& m) {
   std::vector<bool> held(m.reference.size(), false);
@@ -34,6 +34,9 @@ std::vector<bool> held_nodes(const model::BasicModel<Dim>& m) {
       if (t.dof < Dim * static_cast<Index>(m.reference.size()))
         held[static_cast<std::size_t>(t.dof / Dim)] = true;
   }
+  for (const model::NodeConstraint& one : m.node_constraints)
+    for (const Index n : one.nodes)
+      if (one.body >= 0) held[static_cast<std::size_t>(n)] = true;
   for (std::size_t n = 0; n < held.size(); ++n)
     if (m.body_of_node[n] >= 0) held[n] = true;
   return held;

@@ -175,6 +175,7 @@ struct Rigid {
   /// Sets of one node each that stand for its translations and rotations in the files of CalculiX.
   std::vector<Name> reference_node{}, rotation_node{};
   std::optional<bool> flip;  ///< the body is on the other side; absent: where it belongs
+  std::optional<Marked<Kinematics>> kinematics;  ///< of its rotation; absent: finite
   std::optional<Number> mass;
   std::optional<Number> density;  ///< instead of the mass; in the plane mass per area
   std::optional<Marked<std::vector<double>>> inertia;  ///< 1, 3 or 6 numbers
@@ -357,6 +358,7 @@ struct Coupling {
   core::SourceMark mark;
   Name on, rigid;
   std::array<bool, 3> of{};
+  std::optional<Marked<material::Orientation>> along{};  ///< axes of `of`; absent: x, y and z
 
   [[nodiscard]] bool is_mean() const { return of == std::array<bool, 3>{}; }
 };

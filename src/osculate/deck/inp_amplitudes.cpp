@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "osculate/core/text.hpp"
 #include "osculate/deck/inp_steps.hpp"
@@ -13,8 +14,21 @@ using io::inp::Card;
 using io::inp::Fields;
 using io::inp::Line;
 
+/// Formula    A = A_0 + sum_n (A_n cos n w (t - t_0) + B_n sin n w (t - t_0)) , before t_0 A_0
+/// Source     Abaqus, *AMPLITUDE, DEFINITION=PERIODIC
+double factor_at(const InpTable::Waves& waves, double time) {
+  double sum = waves.mean;
+  if (time < waves.start) return sum;
+  for (std::size_t k = 0; k < waves.terms.size(); ++k) {
+    const double angle = static_cast<double>(k + 1) * waves.frequency * (time - waves.start);
+    sum += waves.terms[k][0] * std::cos(angle) + waves.terms[k][1] * std::sin(angle);
+  }
+  return sum;
+}
+
 /// Constant before the first and behind the last point.
 double factor_at(const InpTable& table, double time) {
+  if (table.waves) return factor_at(*table.waves, time);
   const auto& p = table.points;
   if (time <= p.front()[0]) return p.front()[1];
   for (std::size_t k = 1; k < p.size(); ++k)
@@ -29,11 +43,12 @@ void check_amplitude(const InpModel& m, const Card& card) {
     io::inp::fail(m.deck, card, fmt::format("expected TIME=TOTAL TIME, found {}", time));
   const std::string definition = option_of(card, "DEFINITION"), value = option_of(card, "VALUE");
   if (!definition.empty() && definition != "TABULAR" && definition != "SMOOTHSTEP" &&
-      definition != "EQUALLYSPACED")
-    io::inp::fail(m.deck, card,
-                  fmt::format("DEFINITION={} is not supported: TABULAR, EQUALLY SPACED or SMOOTH "
-                              "STEP",
-                              printable(definition)));
+      definition != "EQUALLYSPACED" && definition != "PERIODIC")
+    io::inp::fail(
+        m.deck, card,
+        fmt::format("DEFINITION={} is not supported: TABULAR, EQUALLY SPACED, PERIODIC or "
+                    "SMOOTH STEP",
+                    printable(definition)));
   if (!value.empty() && value != "RELATIVE")
     io::inp::fail(m.deck, card, fmt::format("VALUE={} is not supported", printable(value)));
   if (io::inp::find_parameter(card, "USER")) io::inp::fail(m.deck, card, "USER is not supported");
@@ -59,6 +74,58 @@ std::vector<std::array<double, 2>> smooth_step(const std::vector<std::array<doub
   return out;
 }
 
+/// The number of terms, the circular frequency, the time at first and the mean; then the terms.
+InpTable::Waves read_waves(const InpModel& m, const Card& card) {
+  const auto lines = io::inp::lines_of(m.deck, card);
+  if (lines.empty())
+    io::inp::fail(m.deck, card, "expected the number of terms, the circular frequency, t0 and A0");
+  Fields first(m.deck, lines[0]);
+  const std::int32_t count = first.number("the number of terms");
+  InpTable::Waves waves;
+  waves.frequency = first.real("the circular frequency");
+  if (count < 1 || !(waves.frequency > 0))
+    first.fail("expected at least one term and a circular frequency above 0");
+  waves.start = first.real_or_zero("the starting time");
+  waves.mean = first.real_or_zero("A0");
+  for (std::size_t k = 1; k < lines.size(); ++k) {
+    Fields fields(m.deck, lines[k]);
+    while (!fields.done()) {
+      const double cosine = fields.real("a factor of a cosine");
+      waves.terms.push_back({cosine, fields.real_or_zero("a factor of a sine")});
+    }
+  }
+  if (std::ssize(waves.terms) != count)
+    io::inp::fail(m.deck, card,
+                  fmt::format("expected {} pairs of A and B, found {}", count, waves.terms.size()));
+  return waves;
+}
+
+/// Times of straight parts between the ends of a step, which differ from the waves by 3.1e-5 of the
+/// shortest one's amplitude.
+///
+/// Formula    (2 pi / n)^2 / 8 , n = 400 parts a wave
+std::vector<double> times_of_waves(const InpModel& m, const InpTable& table, double from,
+                                   double to) {
+  constexpr double parts = 400, most = 200000;
+  const InpTable::Waves& waves = *table.waves;
+  const double part =
+      2 * std::numbers::pi / (waves.frequency * static_cast<double>(waves.terms.size()) * parts);
+  const double begin = std::max(from, waves.start);
+  std::vector<double> times;
+  if (!(begin < to)) return times;
+  const double count = std::ceil((to - begin) / part);
+  if (count > most)
+    io::inp::fail(
+        m.deck, table.at,
+        fmt::format("a step has {:.3g} of its shortest waves: at most {:.3g} are supported",
+                    count / parts, most / parts));
+  constexpr double sudden = 1e-6;  // share of the step in which the waves set in
+  if (begin > from) times.insert(times.end(), {begin - sudden * (to - from), begin});
+  for (int k = 1; k < static_cast<int>(count); ++k)
+    times.push_back(begin + (to - begin) * k / count);
+  return times;
+}
+
 void add_point(SourceNode& points, double fraction, double factor) {
   SourceNode& row = points.items.emplace_back(inp_list(points.line));
   row.items = {inp_number(fraction, points.line), inp_number(factor, points.line)};
@@ -77,6 +144,14 @@ void read_amplitude(const InpModel& m, const Card& card, InpTables& tables) {
     return given ? Fields(m.deck, {given->value, card.at}).real(key) : 0.0;
   };
   const double later = shift("SHIFTX"), more = shift("SHIFTY");
+  table.at = card.at;
+  if (option_of(card, "DEFINITION") == "PERIODIC") {
+    table.waves = read_waves(m, card);
+    table.waves->start += later;
+    table.waves->mean += more;
+    tables[io::inp::capitals(table.name)] = std::move(table);
+    return;
+  }
   const bool spaced = option_of(card, "DEFINITION") == "EQUALLYSPACED";
   const double interval = spaced ? shift("FIXEDINTERVAL") : 0;
   if (spaced && !(interval > 0)) io::inp::fail(m.deck, card, "expected FIXED INTERVAL above 0");
@@ -111,21 +186,26 @@ std::string amplitude_of(const InpModel& m, const Card& card, InpTables& tables)
   InpTable table = tables.at(amplitude);
   const double delay = Fields(m.deck, {given->value, card.at}).real("TIME DELAY as a time");
   for (auto& point : table.points) point[0] += delay;
+  if (table.waves) table.waves->start += delay;
   table.name += fmt::format("_after_{}", delay);
   const std::string name = io::inp::capitals(table.name);
   tables[name] = std::move(table);
   return name;
 }
 
-std::string amplitude_within(const InpTable& table, double from, double width, std::size_t step,
-                             SourceNode& amplitudes) {
+std::string amplitude_within(const InpModel& m, const InpTable& table, double from, double width,
+                             std::size_t step, SourceNode& amplitudes) {
   const std::string name = plain_name(fmt::format("{}_{}", table.name, step));
   if (find(amplitudes, name)) return name;
   SourceNode& points = put(amplitudes, name, inp_list(table.line));
   add_point(points, 0, factor_at(table, from));
+  constexpr double near = 1e-9;
+  if (table.waves)
+    for (const double time : times_of_waves(m, table, from, from + width))
+      if (const double fraction = (time - from) / width; fraction > near && fraction < 1 - near)
+        add_point(points, fraction, factor_at(table, time));
   for (const auto& [time, factor] : table.points) {
     const double fraction = (time - from) / width;
-    constexpr double near = 1e-9;
     if (fraction > near && fraction < 1 - near) add_point(points, fraction, factor);
   }
   add_point(points, 1, factor_at(table, from + width));

@@ -69,6 +69,21 @@ void change_activity(const InpModel& m, const Card& card, SourceNode& list) {
   }
 }
 
+/// A law without a stick slope keeps that of the pair, which has one only with a law of friction.
+SourceNode changed_shear(const InpModel& m, const Card& card, const InpInteraction& law,
+                         const Card* damping) {
+  SourceNode shear = inp_shear(m, &card, damping);
+  SourceNode* const coulomb = find(shear, "coulomb");
+  if (!coulomb || find(*coulomb, "penalty")) return shear;
+  const SourceNode at_first = inp_shear(m, law.friction, nullptr);
+  if (at_first.entries.empty())
+    io::inp::fail(m.deck, card,
+                  fmt::format("needs a stick slope: the interaction '{}' has no friction at first "
+                              "whose one it could keep",
+                              printable(law.name)));
+  return shear;
+}
+
 /// The cards of a deck up to the end of a step.
 std::span<const Card> up_to_end(const InpModel& m, std::span<const Card> step) {
   return {m.deck.cards.data(), step.data() + step.size()};
@@ -132,8 +147,8 @@ SourceNode inp_changes(const InpModel& m, std::span<const Card> step) {
           [&](const InpPair& pair) {
             const auto all = inp_interactions(m);
             const InpInteraction& law = interaction_named(m, all, card.at, pair.interaction);
-            return inp_shear(m, &card,
-                             contact_is_damped(m, up_to_end(m, step)) ? law.damping : nullptr);
+            return changed_shear(m, card, law,
+                                 contact_is_damped(m, up_to_end(m, step)) ? law.damping : nullptr);
           },
           list);
     else

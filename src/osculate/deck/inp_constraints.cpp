@@ -34,6 +34,7 @@ void put_rigid(InpModel& m, const Card& card, const std::vector<std::string>& no
   SourceNode& sets = put(body, "set", inp_list(line));
   for (const std::string& set : nodes) sets.items.push_back(inp_text(set, line));
   sets.items.push_back(inp_text(reference, line));
+  if (!m.finite) put(body, "kinematics", inp_text("small", line));
   put(body, "reference",
       inp_point(m.mesh.mesh.nodes[static_cast<std::size_t>(node)], inp_dimension(m), line));
 }

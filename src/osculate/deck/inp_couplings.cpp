@@ -102,6 +102,7 @@ void put_coupling(const InpModel& m, const Card& card, SourceNode& root) {
     io::inp::fail(m.deck, kind,
                   "some directions alone are not supported with NLGEOM: all displacements");
   put(entry, "of", std::move(of));
+  if (!option_of(card, "ORIENTATION").empty()) put(entry, "axes", inp_orientation(m, card));
 }
 
 void put_pretension(InpModel& m, const Card& card, SourceNode& root) {

@@ -18,8 +18,7 @@ using io::inp::Card;
 struct Refused {
   std::string_view keyword, parameters;
 };
-constexpr std::array<Refused, 19> refused_later{{
-    {"SURFACE", "COMBINE"},
+constexpr std::array<Refused, 18> refused_later{{
     {"INSTANCE", "LIBRARY, INSTANCE"},
     {"STATIC", "RIKS"},
     {"BOUNDARY", "USER, SUBMODEL, SECTOR, OMEGA0"},

@@ -38,7 +38,7 @@ void put_amplitude(const InpWriting& w, SourceNode& entry, const Condition& valu
                          : range.to > range.from ? range.to - range.from
                                                  : 1;
     put(entry, "amplitude",
-        inp_text(amplitude_within(table, from, width, w.number, w.amplitudes), value.line));
+        inp_text(amplitude_within(w.m, table, from, width, w.number, w.amplitudes), value.line));
   } else if (w.at_once && sudden && !is_swing(w)) {
     put(entry, "amplitude", inp_text(amplitude_at_once(w.amplitudes), value.line));
   }

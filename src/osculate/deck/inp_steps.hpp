@@ -19,10 +19,17 @@ namespace osculate::deck {
 
 /// An `*AMPLITUDE`.
 struct InpTable {
+  /// Waves about a mean from a time on, in place of points.
+  struct Waves {
+    double frequency = 0, start = 0, mean = 0;  ///< frequency: circular
+    std::vector<std::array<double, 2>> terms;   ///< factors of cosines and sines
+  };
   std::string name;
   bool of_total_time = false;
   std::vector<std::array<double, 2>> points;  ///< time and factor, by time
+  std::optional<Waves> waves;
   int line = 0;
+  io::inp::Place at{};
 };
 using InpTables = std::map<std::string, InpTable>;  ///< by name in capitals
 
@@ -33,8 +40,8 @@ void read_amplitude(const InpModel& m, const io::inp::Card& card, InpTables& tab
                                        InpTables& tables);
 /// Names of amplitudes of the model file, added where they are missing: what a table is within a
 /// step that begins at a time and has a width, and of loads that act at once.
-[[nodiscard]] std::string amplitude_within(const InpTable& table, double from, double width,
-                                           std::size_t step, SourceNode& amplitudes);
+[[nodiscard]] std::string amplitude_within(const InpModel& m, const InpTable& table, double from,
+                                           double width, std::size_t step, SourceNode& amplitudes);
 [[nodiscard]] std::string amplitude_at_once(SourceNode& amplitudes);
 
 // ---- what a step does: inp_procedure.cpp ------------------------------------------------------

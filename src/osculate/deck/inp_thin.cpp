@@ -74,6 +74,7 @@ void put_knots(InpModel& m, SourceNode& bodies) {
                       mesh::describe_node(m.mesh.mesh, knot.node)));
     SourceNode& body = put(bodies, name, inp_map(1));
     put(body, "set", inp_text(knot.set, 1));
+    if (!m.finite) put(body, "kinematics", inp_text("small", 1));
     put(body, "reference", inp_point(m.mesh.mesh.nodes[static_cast<std::size_t>(knot.node)], 3, 1));
   }
 }

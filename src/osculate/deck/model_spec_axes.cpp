@@ -33,7 +33,7 @@ std::vector<BoundKey<material::Orientation>> orientation_keys() {
            }}};
 }
 
-BoundKey<Section> orientation_key() {
+BoundKeys<material::Orientation> turned_orientation_keys() {
   using A = material::Orientation;
   const BoundKeys<A> turn(
       {{required("about", integer("Which of them: 1, 2 or 3.").at_least(1).at_most(3).such_as("3")),
@@ -44,7 +44,11 @@ BoundKey<Section> orientation_key() {
   all.push_back(
       below(turn, optional("turn", turn.spec("The three axes are turned about one of them.")
                                        .such_as("{about: 3, angle: 30}"))));
-  const BoundKeys<A> keys(std::move(all));
+  return BoundKeys<A>(std::move(all));
+}
+
+BoundKey<Section> orientation_key() {
+  const BoundKeys<material::Orientation> keys = turned_orientation_keys();
   return {optional("orientation",
                    keys.spec("Where the axes 1, 2 and 3 of an orthotropic or anisotropic material "
                              "point, in the undeformed body; without, they are x, y and z.")

@@ -54,6 +54,7 @@ BoundKey<Description> condition_key(std::vector<NodeCondition> Description::*mem
 }
 
 BoundKey<Description> coupling_key() {
+  const BoundKeys<material::Orientation> axes = turned_orientation_keys();
   const BoundKeys<Coupling> keys(
       {on_key<Coupling>("Set of nodes or boundary facets, not on one line.", "rim"),
        need(&Coupling::rigid, "rigid", text("The rigid body.").such_as("hub")),
@@ -73,6 +74,16 @@ BoundKey<Description> coupling_key() {
             if (slot) throw core::InputError(item.mark, quoted(item.text) + " is given twice");
             slot = true;
           }
+        }},
+       {optional("axes",
+                 axes.spec("Where the directions of `of` point, node by node; without, they "
+                           "are x, y and z.")
+                     .with(Group::Rule::exactly_one, {"rectangular", "cylindrical"})
+                     .such_as("{cylindrical: {from: [0, 0, 0], to: [0, 0, 1]}}")),
+        [axes](Coupling& coupling, const Value& v) {
+          coupling.along.emplace();
+          coupling.along->mark = v.mark;
+          axes.read(v, coupling.along->value);
         }}});
   return {optional("coupling",
                    list("Sets whose mean motion (by least squares, of any rotation) is that of a "
@@ -82,7 +93,12 @@ BoundKey<Description> coupling_key() {
                         keys.spec("One coupling."))
                        .otherwise("[]")
                        .such_as("[{on: rim, rigid: hub}]")),
-          [keys](Description& d, const Value& v) { d.coupling = keys.read_all(v); }};
+          [keys](Description& d, const Value& v) {
+            d.coupling = keys.read_all(v, [](const Value&, const Coupling& one) {
+              if (one.along && one.is_mean())
+                throw core::InputError(one.along->mark, "`axes` are those of the directions `of`");
+            });
+          }};
 }
 
 BoundKey<Description> pretension_key() {

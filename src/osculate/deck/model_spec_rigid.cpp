@@ -47,6 +47,15 @@ BoundKeys<Rigid> rigid_keys() {
                           "rotation vector of the body, its force the moment on it about the "
                           "reference point.",
                           "hub_turns")));
+  keys.push_back(may(
+      &R::kinematics, "kinematics",
+      choice("Of its rotation, of a `set` without a mass.",
+             {word("finite", Kinematics::finite, "any rotation"),
+              word("small", Kinematics::small,
+                   "u = u_ref + theta x (X - X_ref), as goes with cells of small strain, which any "
+                   "other rotation strains")})
+          .otherwise("finite")
+          .such_as("small")));
   keys.push_back(may(&R::mass, "mass",
                      number("Mass, with its centre at the reference point; in steps with inertia "
                             "the body then moves freely where nothing is prescribed.")
@@ -87,6 +96,10 @@ BoundKeys<Rigid> rigid_keys() {
 void check_mass(const Value&, const Rigid& rigid) {
   if (rigid.mass && rigid.density)
     throw core::InputError(rigid.density->mark, "give the mass or the density, not both");
+  if (rigid.kinematics && rigid.kinematics->value == Kinematics::small &&
+      (!rigid.meshed() || rigid.mass || rigid.density))
+    throw core::InputError(rigid.kinematics->mark,
+                           "`small` goes with a `set` without a mass or a density");
   if (rigid.inertia && !rigid.mass && !rigid.density)
     throw core::InputError(rigid.inertia->mark, "inertia goes with a mass, which is missing");
 }

@@ -193,11 +193,18 @@ void write_rigid(const Description& d, InpMesh<Dim>& mesh, Leaves& leaves, std::
     if (!shape) continue;  // its keys have no counterpart
     const std::string path = fmt::format("rigid.{}", rigid.name.value);
     if (mesh.given() && mesh.given()->knot(shape->set.value)) {
-      leaves.take(path + ".set");
-      leaves.take(path + ".reference");
+      for (const char* const key : {".set", ".kinematics", ".reference"}) leaves.take(path + key);
       continue;
     }
-    for (const char* const key : {".set", ".reference", ".reference_node", ".rotation_node"})
+    const bool small = rigid.kinematics && rigid.kinematics->value == Kinematics::small;
+    if (small == mesh.finite())
+      throw core::InputError(
+          rigid.kinematics ? rigid.kinematics->mark : rigid.name.mark,
+          fmt::format(
+              "a rigid body in a deck turns as the strain of its cells is: `kinematics: {}`",
+              small ? "finite" : "small"));
+    for (const char* const key :
+         {".set", ".kinematics", ".reference", ".reference_node", ".rotation_node"})
       leaves.take(path + key);
     if (is_of_coupling(d, rigid)) {
       if (mesh.has_nodes_of_elements(shape->set))
@@ -221,8 +228,11 @@ void write_couplings(const Description& d, InpMesh<Dim>& mesh, Leaves& leaves, s
       throw core::InputError(one.mark, "several couplings of one body are not written");
     out += mesh.write_control(one.rigid.value);
     const std::string on = mesh.surface(one.on, mesh.set(one.on).cells.empty());
-    out += fmt::format("*COUPLING, CONSTRAINT NAME=coupling_{}, REF NODE={}, SURFACE={}\n", k + 1,
-                       mesh.control(one.rigid.value)->reference, on);
+    const std::string axes = fmt::format("axes_of_coupling_{}", k + 1);
+    if (one.along) out += orientation_cards(axes, one.along->value);
+    out += fmt::format("*COUPLING, CONSTRAINT NAME=coupling_{}, REF NODE={}, SURFACE={}{}\n", k + 1,
+                       mesh.control(one.rigid.value)->reference, on,
+                       one.along ? ", ORIENTATION=" + axes : "");
     if (one.is_mean()) out += fmt::format("*DISTRIBUTING\n1, {}\n", Dim);
     if (!one.is_mean()) out += "*KINEMATIC\n";
     for (std::size_t i = 0; i < 3; ++i)

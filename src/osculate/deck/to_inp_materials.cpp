@@ -337,18 +337,23 @@ void write_material(const Material& material, const std::string& damping, Leaves
   write_expansion(path + ".expansion", leaves, out);
 }
 
+std::string orientation_cards(const std::string& name, const material::Orientation& axes) {
+  const bool round = axes.kind == material::Orientation::Kind::cylindrical;
+  std::string out = fmt::format(
+      "*ORIENTATION, NAME={}, SYSTEM={}\n{}", name, round ? "CYLINDRICAL" : "RECTANGULAR",
+      rows_of_numbers({axes.a[0], axes.a[1], axes.a[2], axes.b[0], axes.b[1], axes.b[2]}));
+  if (axes.angle != 0)
+    out += fmt::format("{}, {}\n", axes.about + 1, exact(axes.angle * 180 / std::numbers::pi));
+  return out;
+}
+
 std::string write_orientation(const Section& section, std::size_t number, Leaves& leaves,
                               std::string& out) {
   const material::Orientation& axes = section.orientation.value;
   if (axes.kind == material::Orientation::Kind::global) return {};
   leaves.take(fmt::format("sections[{}].orientation", number));
-  const bool round = axes.kind == material::Orientation::Kind::cylindrical;
   const std::string name = fmt::format("axes_{}", number + 1);
-  out += fmt::format(
-      "*ORIENTATION, NAME={}, SYSTEM={}\n{}", name, round ? "CYLINDRICAL" : "RECTANGULAR",
-      rows_of_numbers({axes.a[0], axes.a[1], axes.a[2], axes.b[0], axes.b[1], axes.b[2]}));
-  if (axes.angle != 0)
-    out += fmt::format("{}, {}\n", axes.about + 1, exact(axes.angle * 180 / std::numbers::pi));
+  out += orientation_cards(name, axes);
   return ", ORIENTATION=" + name;
 }
 

@@ -157,6 +157,7 @@ struct Iterative::Impl {
   bool refresh(const SparseMatrix& k);
   [[nodiscard]] bool resists_all();
   bool iterate(Eigen::VectorXd& rhs);
+  [[nodiscard]] bool believable(double force, const Eigen::VectorXd& motion);
   bool precondition(Eigen::VectorXd& r);
   FactorReport factor_directly(const SparseMatrix& k);
   SolveStatus solve(Eigen::VectorXd& rhs);
@@ -232,8 +233,28 @@ bool Iterative::Impl::precondition(Eigen::VectorXd& r) {
   return true;
 }
 
-/// False: it does not come to an end.
+/// |D^-1/2 b| , with D the diagonal.
+double scaled_force(const CompressedRows& a, const Eigen::VectorXd& b) {
+  const Eigen::VectorXd root = Eigen::VectorXd(a.diagonal()).cwiseAbs().cwiseSqrt();
+  Eigen::VectorXd scaled = b;
+  for (Eigen::Index i = 0; i < scaled.size(); ++i) scaled[i] = root[i] > 0 ? b[i] / root[i] : 0;
+  return scaled.stableNorm();
+}
+
+/// A matrix that is singular to rounding may have a solution all the same, and one that goes far:
+/// noise says whether it is one.
+///
+/// Formula    |D^1/2 x| <= 1e8 |D^-1/2 b| ; slender bodies come to 1e6
+bool Iterative::Impl::believable(double force, const Eigen::VectorXd& motion) {
+  constexpr double far = 1e8;
+  const Eigen::VectorXd diagonal = bodies->matrix().diagonal();
+  const double way = motion.cwiseProduct(diagonal.cwiseAbs().cwiseSqrt()).stableNorm();
+  return way <= far * force || resists_all();
+}
+
+/// False: it does not come to an end, or to one that is to be believed.
 bool Iterative::Impl::iterate(Eigen::VectorXd& rhs) {
+  const double force = tried ? 0 : scaled_force(bodies->matrix(), rhs);
   PreconditionedLimits limits;
   limits.tolerance = wanted;
   const Nearby done = solve_preconditioned(
@@ -242,7 +263,7 @@ bool Iterative::Impl::iterate(Eigen::VectorXd& rhs) {
       },
       [this](Eigen::VectorXd& r) { return precondition(r); }, limits, rhs);
   work.iterations += done.iterations;
-  if (!done.solved) return false;
+  if (!done.solved || (!tried && !believable(force, rhs))) return false;
   ++work.solutions;
   constexpr double head_start = 2;  // of the first iterations, which gain less
   pace = done.iterations / (head_start - std::log10(wanted));

@@ -19,7 +19,8 @@ namespace osculate::la {
 /// A matrix is tried with noise, the first after `begin_anew` and after `may_come_loose` the one of
 /// which `sound` asks: where that has no solution, or one that says that hardly a digit is left,
 /// something is free to move, and the direct solver says what. Once it was asked it goes on until
-/// `begin_anew`.
+/// `begin_anew`. One that has not been tried is tried, too, where a solution moves far beside its
+/// right-hand side: by more than 1e8, both in the measure of the diagonal.
 ///
 /// Returns    solutions with |b - K x| <= wanted |b| (`aim`). Where that is out of reach, the
 ///            matrix is factored by the direct solver, whose answer counts

@@ -70,6 +70,7 @@ struct BasicRigidBody {
   std::vector<RigidShape<Dim>> parts;    ///< curves of a composite, each begins where one ends
   bool closed = false;                   ///< the first part begins where the last one ends
   std::vector<Vec<Dim>> polyline;        ///< for pictures of analytic polylines
+  bool small = false;                    ///< rotation: of nodes whose displacements are small
   double mass = 0;                       ///< its centre is the reference point; 0: none
   /// About the reference point, in reference coordinates.
   Mat<body::rotations<Dim>, body::rotations<Dim>> inertia =

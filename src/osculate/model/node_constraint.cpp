@@ -107,10 +107,11 @@ void plane(const NodeConstraint& c, std::span<const Vec3> reference, std::span<c
   put(f, 0, lambda[0], out);
 }
 
-/// Rotation of an arm and its derivatives, in the plane and in space alike.
+/// Rotation of an arm and its derivatives, in the plane and in space alike. `turned`: the arm as it
+/// is now, of small rotations as it was.
 Mat<2, 1> turning(const body::RigidMotion&, const Vec2& turned) { return Mat<2, 1>(turn(turned)); }
 Mat<3, 3> turning(const body::RigidMotion3& motion, const Vec3& turned) {
-  return -body::cross_matrix(turned) * body::rotation_tangent(motion.rotation);
+  return -body::cross_matrix(turned) * body::spin_tangent(motion);
 }
 void add_bending(const body::RigidMotion&, const Vec2& turned, const Vec2&, const Vec2& f,
                  Eigen::MatrixXd& to) {
@@ -124,19 +125,58 @@ void add_bending(const body::RigidMotion3& motion, const Vec3&, const Vec3& arm,
 Mat<1, 2> moment_of(const Vec2& arm) { return {-arm.y(), arm.x()}; }
 Mat<3, 3> moment_of(const Vec3& arm) { return body::cross_matrix(arm); }
 
+/// Weighted centres of the nodes at first and now, and the mean square of the arms at first.
+template <int Dim>
+struct Centres {
+  Vec<Dim> centre = Vec<Dim>::Zero(), now = Vec<Dim>::Zero();
+  double square = 0;
+};
+template <int Dim>
+Centres<Dim> centres(const NodeConstraint& c, std::span<const Vec<Dim>> reference,
+                     std::span<const Vec<Dim>> x) {
+  Centres<Dim> out;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    out.centre += c.weights[i] * reference[i];
+    out.now += c.weights[i] * x[i];
+  }
+  for (std::size_t i = 0; i < x.size(); ++i)
+    out.square += c.weights[i] * (reference[i] - out.centre).squaredNorm();
+  return out;
+}
+
+/// With the small rotation of the body: linear.
+template <int Dim>
+void small_mean_motion(const NodeConstraint& c, std::span<const Vec<Dim>> reference,
+                       std::span<const Vec<Dim>> x, const body::BasicRigidMotion<Dim>& motion,
+                       NodeConstraintValue<Dim>& out) {
+  constexpr int turns = body::rotations<Dim>;
+  const auto& [centre, now, square] = centres<Dim>(c, reference, x);
+  const double s = c.stiffness, per_arm = s / std::sqrt(square);
+  const auto turned = [&](const Vec<Dim>& arm) {
+    return Vec<Dim>(motion.position(motion.reference + arm) - motion.center());
+  };
+  const Vec<Dim> lever = motion.reference - centre;
+  out.value.template head<Dim>() = s * (motion.center() - now - turned(lever));
+  out.of_body.setZero(Dim + turns, Dim + turns);
+  out.of_body.template topLeftCorner<Dim, Dim>() = s * Mat<Dim, Dim>::Identity();
+  out.of_body.template block<Dim, turns>(0, Dim) = -s * turning(motion, lever);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(Dim * i);
+    const Vec<Dim> arm = reference[i] - centre;
+    const Mat<turns, Dim> across = per_arm * c.weights[i] * moment_of(arm);
+    out.value.template tail<turns>() += across * (x[i] - now - turned(arm));
+    out.gradient.template block<Dim, Dim>(0, at) = -s * c.weights[i] * Mat<Dim, Dim>::Identity();
+    out.gradient.template block<turns, Dim>(Dim, at) = across;
+    out.of_body.template block<turns, turns>(Dim, Dim) -= across * turning(motion, arm);
+  }
+}
+
 template <int Dim>
 void mean_motion(const NodeConstraint& c, std::span<const Vec<Dim>> reference,
                  std::span<const Vec<Dim>> x, const body::BasicRigidMotion<Dim>& motion,
                  const Eigen::VectorXd& lambda, NodeConstraintValue<Dim>& out) {
   constexpr int turns = body::rotations<Dim>;
-  Vec<Dim> centre = Vec<Dim>::Zero(), now = Vec<Dim>::Zero();
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    centre += c.weights[i] * reference[i];
-    now += c.weights[i] * x[i];
-  }
-  double square = 0;
-  for (std::size_t i = 0; i < x.size(); ++i)
-    square += c.weights[i] * (reference[i] - centre).squaredNorm();
+  const auto& [centre, now, square] = centres<Dim>(c, reference, x);
   const double s = c.stiffness, per_arm = s / std::sqrt(square);
   const auto turned = [&](const Vec<Dim>& arm) {
     return Vec<Dim>(motion.position(motion.reference + arm) - motion.center());
@@ -187,7 +227,10 @@ NodeConstraintValue<Dim> evaluate(const NodeConstraint& c, std::span<const Vec<D
   NodeConstraintValue<Dim> out = empty<Dim>(c);
   if (c.kind == Kind::distance) distance<Dim>(c, reference, x, lambda, out);
   if (c.kind == Kind::line) line(c, reference, x, lambda, out);
-  if (c.kind == Kind::mean_motion) mean_motion<Dim>(c, reference, x, *motion, lambda, out);
+  if (c.kind == Kind::mean_motion && motion->small)
+    small_mean_motion<Dim>(c, reference, x, *motion, out);
+  else if (c.kind == Kind::mean_motion)
+    mean_motion<Dim>(c, reference, x, *motion, lambda, out);
   if constexpr (Dim == 3)
     if (c.kind == Kind::plane) plane(c, reference, x, lambda, out);
   return out;

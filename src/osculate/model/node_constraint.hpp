@@ -36,7 +36,9 @@ template <int Dim>
 ///            line      G_k = s e_k . (x3 - x1) x (x2 - x1) / |X2 - X1| , e_k across the line
 ///            distance  G = s (|x2 - x1|^2 - L^2) / (2 L)
 ///            mean      G_c = s (x_b - c - R (X_b - C)) , G_r = s sum w R A x (x - c) / a ,
-///                      A = X - C , C = sum w X , c = sum w x , sum w = 1 , a^2 = sum w A . A
+///                      A = X - C , C = sum w X , c = sum w x , sum w = 1 , a^2 = sum w A . A ;
+///                      of a small rotation G_c = s (x_b - c - (1 + [theta]) (X_b - C)) ,
+///                      G_r = s sum w A x (x - c - theta x A) / a
 /// Units      forces; s: stiffness
 /// Tested by  tests/unit/model/test_node_constraint.cpp
 template <int Dim>

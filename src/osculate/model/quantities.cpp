@@ -259,7 +259,7 @@ Vec<body::motions<Dim>> force_on_body(const BasicSystem<Dim>& system, const Basi
   for (const Index n : model.rigid[static_cast<std::size_t>(b)].nodes) {
     const Vec<Dim> f = forces.segment<Dim>(Dim * n);
     force += f;
-    moment += moment_about(Vec<Dim>(x[static_cast<std::size_t>(n)] - motion.center()), f);
+    moment += moment_about(body::arm_of(motion, x[static_cast<std::size_t>(n)]), f);
   }
   const Dof first = system.dofs().body_dof(b, 0);
   force += forces.segment<Dim>(first);

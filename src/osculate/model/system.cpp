@@ -26,6 +26,7 @@ BasicState<Dim> BasicSystem<Dim>::initial_state() {
   for (const BasicRigidBody<Dim>& body : model.rigid) {
     state.rigid.emplace_back();
     state.rigid.back().reference = body.reference;
+    state.rigid.back().small = body.small;
   }
   for (const BasicContactPair<Dim>& pair : model.pairs)
     state.pairs.push_back(pairing::initial_state<Dim>(pair.definition, model.reference));

@@ -91,8 +91,9 @@ Buckling BasicSystem<Dim>::buckling(const State& state, int count, la::LinearSol
   s.bulk.add_stresses(now, &then, to);
   if (!s.model.rigid.empty()) {
     s.last.forces.external = external;
-    turn_moments(s.model, state, true, to);
-    add_rigid_geometry<Dim>(s.model, state, x, s.added_internal(then, now) - external, to);
+    turn_moments(s.model, state, true, to, SmallRotations::turn);
+    add_rigid_geometry<Dim>(s.model, state, x, s.added_internal(then, now) - external, to,
+                            SmallRotations::turn);
   }
   const la::SparseMatrix& added = s.builder.finish();
   if (std::ranges::all_of(added.value, [](double v) { return v == 0; })) {

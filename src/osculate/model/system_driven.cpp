@@ -44,7 +44,7 @@ Slope slope_of(const Ramp& ramp, double at, double spacing) {
 Vec3 spin_change(const body::RigidMotion3& motion, const Vec3& rates) {
   Vec3 change;
   for (int i = 0; i < 3; ++i)
-    change[i] = rates.dot(body::moment_gradient(motion.rotation, Vec3::Unit(i)) * rates);
+    change[i] = rates.dot(body::moment_gradient(motion, Vec3::Unit(i)) * rates);
   return change;
 }
 
@@ -89,13 +89,13 @@ Eigen::VectorXd BasicSystem<Dim>::Impl::Motion::turning_accelerations(
     const body::BasicRigidMotion<Dim>& motion_of = mass_rigid[b];
     const Dof first = dofs.body_dof(static_cast<Index>(b), Dim);
     const Vec<body::rotations<Dim>> rates = velocity.segment<body::rotations<Dim>>(first);
-    if (rates.isZero(0)) continue;
+    if (motion_of.small || rates.isZero(0)) continue;
     for (const Index node : model.rigid[b].nodes) {
       const Vec<Dim> arm = mass_x[static_cast<std::size_t>(node)] - motion_of.center();
       if constexpr (Dim == 2) {
         out.segment<2>(2 * node) = -rates[0] * rates[0] * arm;
       } else {
-        const Vec3 spin = body::rotation_tangent(motion_of.rotation) * rates;
+        const Vec3 spin = body::spin_tangent(motion_of) * rates;
         out.segment<3>(3 * node) =
             spin_change(motion_of, rates).cross(arm) + spin.cross(spin.cross(arm));
       }
@@ -117,7 +117,7 @@ Eigen::VectorXd BasicSystem<Dim>::Impl::Motion::momenta_of(const Eigen::VectorXd
     for (std::size_t b = 0; b < model.rigid.size(); ++b) {
       if (!coupled[b]) continue;
       const Dof first = dofs.body_dof(static_cast<Index>(b), Dim);
-      const Mat<3, 3> t = body::rotation_tangent(mass_rigid[b].rotation);
+      const Mat<3, 3> t = body::spin_tangent(mass_rigid[b]);
       const Vec3 spin = t * rates.segment<3>(first);
       out.segment<3>(first) +=
           t.transpose() * (inertia_in_space(model.rigid[b].inertia, mass_rigid[b]) * spin);
@@ -170,8 +170,7 @@ void BasicSystem<Dim>::Impl::Motion::set_rotations(const Eigen::VectorXd& rates,
       const Dof first = dofs.body_dof(static_cast<Index>(b), Dim);
       velocity.segment<3>(first) = before.segment<3>(first);
       if (coupled[b])
-        velocity.segment<3>(first) =
-            body::rotation_tangent(mass_rigid[b].rotation) * rates.segment<3>(first);
+        velocity.segment<3>(first) = body::spin_tangent(mass_rigid[b]) * rates.segment<3>(first);
     }
   }
 }
@@ -257,7 +256,7 @@ void BasicSystem<Dim>::Impl::Motion::settle_accelerations(Rates& now, const Driv
       const body::RigidMotion3& motion_of = mass_rigid[b];
       const Mat<3, 3> to_body = motion_of.orientation().transpose();
       const Vec3 spin = now.velocity.segment<3>(first);
-      const Vec3 spinning = body::rotation_tangent(motion_of.rotation) * rotation +
+      const Vec3 spinning = body::spin_tangent(motion_of) * rotation +
                             spin_change(motion_of, rates.segment<3>(first));
       const Vec3 change = to_body * spinning - now.spins[b].acceleration;
       const Vec3 moment = to_body.transpose() * (model.rigid[b].inertia * change);
@@ -282,8 +281,7 @@ void BasicSystem<Dim>::Impl::Motion::begin_coupled_spins(Rates& rates,
       const Vec3 moment = of_body * change + spin.cross(of_body * spin);
       const Mat<3, 3> to_body = mass_rigid[b].orientation().transpose();
       rates.spins[b] = {to_body * spin, to_body * change, moment};
-      force.segment<3>(first) -=
-          body::rotation_tangent(mass_rigid[b].rotation).transpose() * moment;
+      force.segment<3>(first) -= body::spin_tangent(mass_rigid[b]).transpose() * moment;
     }
   } else {
     (void)rates, (void)force;
@@ -298,7 +296,7 @@ Eigen::VectorXd BasicSystem<Dim>::Impl::Motion::inertia_of(const Rates& rates) c
     for (std::size_t b = 0; b < model.rigid.size(); ++b)
       if (inertia.body_has_mass(b))
         out.segment<3>(dofs.body_dof(static_cast<Index>(b), Dim)) +=
-            body::rotation_tangent(mass_rigid[b].rotation).transpose() * rates.spins[b].moment;
+            body::spin_tangent(mass_rigid[b]).transpose() * rates.spins[b].moment;
   }
   return out;
 }
@@ -347,8 +345,8 @@ void BasicSystem<Dim>::Impl::Motion::move_past_to_bodies() {
     for (const Index node : model.rigid[b].nodes) {
       const Vec<Dim> force = sum.segment<Dim>(Dim * node);
       if (force.isZero(0)) continue;
-      const Vec<Dim> arm =
-          at.position(model.reference[static_cast<std::size_t>(node)]) - at.center();
+      const Vec<Dim>& material = model.reference[static_cast<std::size_t>(node)];
+      const Vec<Dim> arm = body::arm_of(at, at.position(material));
       sum.segment<Dim>(first) += force;
       if constexpr (Dim == 2)
         sum[first + 2] += turn(arm).dot(force);

@@ -189,8 +189,8 @@ void BasicSystem<Dim>::Impl::Motion::factor_mass() {
     Mat<body::motions<Dim>, body::motions<Dim>> mass = inertia.body_mass(b);
     if constexpr (Dim == 3)
       if (coupled[b]) {
-        const Mat<3, 3> t = mass_rigid[b].orientation().transpose() *
-                            body::rotation_tangent(mass_rigid[b].rotation);
+        const Mat<3, 3> t =
+            mass_rigid[b].orientation().transpose() * body::spin_tangent(mass_rigid[b]);
         mass.template bottomRightCorner<3, 3>() = t.transpose() * model.rigid[b].inertia * t;
       }
     into.add_block(of, mass);

@@ -293,13 +293,17 @@ void BasicSystem<Dim>::Impl::Explicit::sum_forces() {
   total = f.internal;
   if (!active_set.empty()) total += f.contact;
   if (loaded) total -= f.external;
+  gather(total);
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::Explicit::gather(Vector& forces) const {
   for (std::size_t b = 0; b < now.rigid.size(); ++b) {
-    const Vec<Dim> center = now.rigid[b].center();
     Vec<Dim> force = Vec<Dim>::Zero();
     Vec<body::rotations<Dim>> moment = Vec<body::rotations<Dim>>::Zero();
     for (const Index node : system.model.rigid[b].nodes) {
-      const Vec<Dim> of_node = total.segment<Dim>(Dim * node);
-      const Vec<Dim> arm = x[static_cast<std::size_t>(node)] - center;
+      const Vec<Dim> of_node = forces.segment<Dim>(Dim * node);
+      const Vec<Dim> arm = body::arm_of(now.rigid[b], x[static_cast<std::size_t>(node)]);
       force += of_node;
       if constexpr (Dim == 2)
         moment[0] += turn(arm).dot(of_node);
@@ -307,11 +311,11 @@ void BasicSystem<Dim>::Impl::Explicit::sum_forces() {
         moment += arm.cross(of_node);
     }
     const Dof first = system.dofs.body_dof(static_cast<Index>(b), 0);
-    total.segment<Dim>(first) += force;
-    total.segment<body::rotations<Dim>>(first + Dim) += moment;
+    forces.segment<Dim>(first) += force;
+    forces.segment<body::rotations<Dim>>(first + Dim) += moment;
   }
   for (const Follower& f_of : followers)
-    if (f_of.lead >= 0) total[f_of.lead] += f_of.factor * total[f_of.dof];
+    if (f_of.lead >= 0) forces[f_of.lead] += f_of.factor * forces[f_of.dof];
 }
 
 /// Damping enters by the velocity at the end of the step, which is the mean of those around it.
@@ -418,6 +422,7 @@ void BasicSystem<Dim>::Impl::Explicit::follow(double time, double h, solve::Expl
 template <int Dim>
 bool BasicSystem<Dim>::Impl::Explicit::accelerate(double time, double h, solve::ExplicitMotion& m) {
   Forces& f = system.last.forces;
+  last_step = h;
   past_internal.swap(f.internal);
   past_contact.swap(f.contact);
   past_external.swap(f.external);

@@ -65,6 +65,7 @@ struct BasicSystem<Dim>::Impl::Explicit {
   std::vector<Vec<Dim>> x;
   std::vector<Turning> turning;
   Vector past_internal, past_contact, past_external, past_damping, damping_force;
+  Vector of_loads;  ///< forces, likewise gathered; for `kick`
   Vector total;  ///< of all forces on the side of the internal ones, at dofs with their followers
   Vector past_held;  ///< total at `held`
   Works works;
@@ -72,6 +73,9 @@ struct BasicSystem<Dim>::Impl::Explicit {
   double energy_before = 0;     ///< kinetic, at the beginning of the increment
   double held_before = 0;       ///< that of what is prescribed
   double energy_available = 0;  ///< what is there and what has been put in
+  double last_step = 0;         ///< length of the last time step
+  double without_way = 0;       ///< the largest `kick` and `heat` since the increment began
+  Vector u_before;              ///< displacements then, where temperatures change
   bool lost = false;            ///< forces are no numbers any more
   std::string trouble;
 
@@ -110,12 +114,17 @@ struct BasicSystem<Dim>::Impl::Explicit {
   void commit_contact();
   void add_loads(double fraction);
   void sum_forces();
+  /// Adds the forces on nodes of rigid bodies to those on these, and those on what follows to those
+  /// on what leads it.
+  void gather(Vector& forces) const;
   void set_accelerations(double h, solve::ExplicitMotion& m);
   void end_turns(double h);
   void add_works(double h, const solve::ExplicitMotion& m);
   void move_body(std::size_t body, double fraction, double h, solve::ExplicitMotion& m);
   [[nodiscard]] double kinetic(const Vector& velocity) const;
   [[nodiscard]] double kinetic_of_held(const Vector& velocity) const;
+  [[nodiscard]] double kick();
+  [[nodiscard]] double heat() const;
   void finish(double fraction, double duration, ExplicitIncrement<State>& out);
   /// Stored and dissipated in all cells.
   [[nodiscard]] solid::CellEnergy cells_energy(const Eigen::VectorXd& u,

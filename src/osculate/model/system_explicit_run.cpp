@@ -56,6 +56,33 @@ double BasicSystem<Dim>::Impl::Explicit::kinetic_of_held(const Vector& velocity)
   return sum;
 }
 
+/// Energy that the loads give within half a time step, before they have worked along any way: the
+/// velocity at the end of a step is that of its middle and what half a step adds.
+///
+/// Formula    h^2/8 f . M^-1 f , f the external forces
+template <int Dim>
+double BasicSystem<Dim>::Impl::Explicit::kick() {
+  if (!loaded) return 0;
+  of_loads = system.last.forces.external;
+  gather(of_loads);
+  double sum = (inverse.array() * of_loads.array().square()).sum();
+  if constexpr (Dim == 3)
+    for (std::size_t b = 0; b < turns.size(); ++b) {
+      if (!turns[b]) continue;
+      const Vec3 moment = now.rigid[b].orientation().transpose() *
+                          of_loads.segment<3>(system.dofs.body_dof(static_cast<Index>(b), 3));
+      sum += moment.dot(system.model.rigid[b].inertia.inverse() * moment);
+    }
+  return last_step * last_step / 8 * sum;
+}
+
+/// Energy that the temperatures of now store where nothing has moved since the increment began.
+template <int Dim>
+double BasicSystem<Dim>::Impl::Explicit::heat() const {
+  if (system.step.temperature.changes.empty()) return 0;
+  return cells_energy(u_before, now.memory).stored;
+}
+
 template <int Dim>
 void BasicSystem<Dim>::Impl::Explicit::load(const State& committed) {
   const Rates& r = committed.rates;
@@ -67,6 +94,8 @@ void BasicSystem<Dim>::Impl::Explicit::load(const State& committed) {
   damping_force = r.damping;
   stable = r.stable;
   works = {};
+  without_way = 0;
+  if (!system.step.temperature.changes.empty()) u_before = committed.u;
   place(motion.position);
   sum_forces();
   for (std::size_t i = 0; i < held.size(); ++i)
@@ -106,7 +135,7 @@ Eigen::VectorXd BasicSystem<Dim>::Impl::Explicit::inertia_forces(const Vector& a
       if (!turns[b]) continue;
       const Dof first = system.dofs.body_dof(static_cast<Index>(b), 3);
       const Vec3 moment = damping_force.segment<3>(first) + turning[b].moment;
-      out.segment<3>(first) = body::rotation_tangent(now.rigid[b].rotation).transpose() * moment;
+      out.segment<3>(first) = body::spin_tangent(now.rigid[b]).transpose() * moment;
     }
   return out;
 }
@@ -198,8 +227,8 @@ solid::CellEnergy BasicSystem<Dim>::Impl::Explicit::cells_energy(
 /// Energy that nothing has put in: the time step is not stable, whatever the estimate says.
 ///
 /// Formula    T + work of all forces against the motion = T_0 + sum h^2/8 d(a . M a), which a
-/// stable
-///            step keeps below the energy there is
+///            stable step keeps below the energy there is and what loads and heat
+///            give before anything moves
 template <int Dim>
 bool BasicSystem<Dim>::Impl::Explicit::grows(const solve::ExplicitMotion& m) {
   const double moving = kinetic(m.velocity);
@@ -209,7 +238,8 @@ bool BasicSystem<Dim>::Impl::Explicit::grows(const solve::ExplicitMotion& m) {
   // At the share s of the critical step the energy of the fastest mode goes up to 1/(1 - s^2) times
   // that of its velocity and back: 50 times for s = 0.99.
   constexpr double more_than_exchange = 100;
-  const double available = energy_available + std::max(0.0, put_in);
+  without_way = std::max(without_way, kick() + heat());
+  const double available = energy_available + std::max(0.0, put_in) + without_way;
   if (std::isfinite(moving) && std::isfinite(gain) && !(gain > more_than_exchange * available))
     return false;
   trouble = fmt::format(
@@ -320,7 +350,7 @@ void BasicSystem<Dim>::Impl::move_with_bodies(const State& s, Rates& rates) cons
     const Index b = dofs.body_of(node);
     if (b < 0) continue;
     const Vec<Dim> arm =
-        x[static_cast<std::size_t>(node)] - s.rigid[static_cast<std::size_t>(b)].center();
+        body::arm_of(s.rigid[static_cast<std::size_t>(b)], x[static_cast<std::size_t>(node)]);
     const Dof first = dofs.body_dof(b, 0);
     Vec<Dim> v = rates.velocity.template segment<Dim>(first);
     if constexpr (Dim == 2)

@@ -219,7 +219,7 @@ void BasicSystem<Dim>::Impl::assemble_terms(const State& committed, const Trial&
                                             solve::Evaluation& out) {
   const State& now = trial.state;
   out.ok = true;
-  out.apart = false;
+  out.apart = out.carried = false;
   out.message.clear();
   last.clear(dofs.dofs(), constraints.count());
   if (with_tangent) {
@@ -239,6 +239,7 @@ void BasicSystem<Dim>::Impl::assemble_terms(const State& committed, const Trial&
   const bool predict = pass == Pass::predict;
   if (predict) {
     inc = prescribed_increment(now, x, fraction);
+    out.carried = !inc.isZero(0);
     last.carried =
         inc.head(Dim * static_cast<Eigen::Index>(x.size())).template lpNorm<Eigen::Infinity>();
   }
@@ -267,8 +268,10 @@ void BasicSystem<Dim>::Impl::assemble_terms(const State& committed, const Trial&
   loads.add_dead_loads(step, fraction, last.forces);
   loads.add_gravity(step, fraction, motion ? &motion->inertia : nullptr, last.forces);
   if (timed()) motion->add_inertia(now, to);
-  turn_moments(model, now, with_tangent && on(Term::rigid), to);
-  if (with_tangent && on(Term::rigid)) add_rigid_geometry<Dim>(model, now, x, total_force(), to);
+  const SmallRotations small = with_stresses ? SmallRotations::turn : SmallRotations::linear;
+  turn_moments(model, now, with_tangent && on(Term::rigid), to, small);
+  if (with_tangent && on(Term::rigid))
+    add_rigid_geometry<Dim>(model, now, x, total_force(), to, small);
   if (with_tangent) {
     assembler.add_prescribed_diagonal(1.0);
     if (resistance.share > 0) resistance.add(resistance.share, assembler, builder);

@@ -77,7 +77,7 @@ BasicState<Dim> BasicSystem<Dim>::moved_along(const Vibrations& modes, const Sta
     for (std::size_t b = 0; b < state.rigid.size(); ++b) {
       auto turning =
           state.rates.velocity.template segment<3>(dofs.body_dof(static_cast<Index>(b), Dim));
-      turning = (body::rotation_tangent(about.rigid[b].rotation) * turning).eval();
+      turning = (body::spin_tangent(about.rigid[b]) * turning).eval();
     }
   return state;
 }

@@ -75,8 +75,8 @@ Vec<body::rotations<Dim>> BasicSystem<Dim>::Impl::Motion::moment_on(
   const body::BasicRigidMotion<Dim>& motion_of = s.rigid[body];
   for (const Index node : model.rigid[body].nodes) {
     const Vec<Dim> f = forces_on_dofs.segment<Dim>(Dim * node);
-    const Vec<Dim> arm =
-        motion_of.position(model.reference[static_cast<std::size_t>(node)]) - motion_of.center();
+    const Vec<Dim>& material = model.reference[static_cast<std::size_t>(node)];
+    const Vec<Dim> arm = body::arm_of(motion_of, motion_of.position(material));
     if constexpr (Dim == 2)
       moment[0] += turn(arm).dot(f);
     else
@@ -95,9 +95,9 @@ void BasicSystem<Dim>::Impl::Motion::add_spins(const State& trial, Assembly<Dim>
       const std::array<Dof, 3> d{first, first + 1, first + 2};
       const Vec3 before = m.past_force.template segment<3>(first);
       m.effective.template segment<3>(first) +=
-          body::rotation_tangent(trial.rigid[b].rotation).transpose() * before - before;
+          body::spin_tangent(trial.rigid[b]).transpose() * before - before;
       if (to.with_tangent && !before.isZero(0))
-        to.add_stiffness(d, body::moment_gradient(trial.rigid[b].rotation, before));
+        to.add_stiffness(d, body::moment_gradient(trial.rigid[b], before));
       if (!m.inertia.body_has_mass(b)) continue;
       const body::InertiaMoment<3> inertial = body::inertia_moment(
           model.rigid[b].inertia, m.past.spins[b], scheme, m.from[b], trial.rigid[b]);

@@ -67,7 +67,7 @@ void BasicSystem<Dim>::Impl::Motion::add_spin_errors(const Rates& before, const 
       }
       const body::RotationRates<3>&was = before.spins[b], &is = after.spins[b];
       if (coupled[b])
-        turn = at.orientation().transpose() * (body::rotation_tangent(at.rotation) * Vec3(turn));
+        turn = at.orientation().transpose() * (body::spin_tangent(at) * Vec3(turn));
       else
         turn = length * length * factor * (is.acceleration - was.acceleration);
       if (free_rotations(b) < body::rotations<Dim>) continue;

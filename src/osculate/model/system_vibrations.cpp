@@ -16,7 +16,7 @@ Mat<3, 3> mass_of_body(const BasicInertia<2>& inertia, const BasicRigidBody<2>&,
 Mat<6, 6> mass_of_body(const BasicInertia<3>& inertia, const BasicRigidBody<3>& body,
                        const body::RigidMotion3& motion, std::size_t b) {
   Mat<6, 6> mass = inertia.body_mass(b);
-  const Mat<3, 3> turn = motion.orientation(), t = body::rotation_tangent(motion.rotation);
+  const Mat<3, 3> turn = motion.orientation(), t = body::spin_tangent(motion);
   mass.bottomRightCorner<3, 3>() = t.transpose() * turn * body.inertia * turn.transpose() * t;
   return mass;
 }
@@ -24,7 +24,7 @@ Mat<6, 6> mass_of_body(const BasicInertia<3>& inertia, const BasicRigidBody<3>& 
 /// Rotation vectors' rates of a body that turns with the unit angular velocities.
 Mat<1, 1> rates_of_turns(const body::RigidMotion&) { return Mat<1, 1>::Identity(); }
 Mat<3, 3> rates_of_turns(const body::RigidMotion3& motion) {
-  return body::rotation_tangent(motion.rotation).inverse();
+  return body::spin_tangent(motion).inverse();
 }
 
 /// The unknowns' parts of the rigid motions of the whole: by columns displacements along the axes

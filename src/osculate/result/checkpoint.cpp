@@ -22,13 +22,13 @@ void fields(Archive& a, RotationRates<Dim>& rates) {
 }
 template <class Archive>
 void fields(Archive& a, RigidMotion& motion) {
-  auto& [reference, translation, angle] = motion;
-  a(reference, translation, angle);
+  auto& [reference, translation, angle, small] = motion;
+  a(reference, translation, angle, small);
 }
 template <class Archive>
 void fields(Archive& a, RigidMotion3& motion) {
-  auto& [reference, translation, rotation, base, turned] = motion;
-  a(reference, translation, rotation, base, turned);
+  auto& [reference, translation, rotation, base, turned, small] = motion;
+  a(reference, translation, rotation, base, turned, small);
 }
 }  // namespace osculate::body
 

@@ -202,8 +202,9 @@ Hourglass<Dim> hourglass(const Section<Dim>& section, const Coordinates<Dim>& re
 
 NodeMatrix3 faint_stiffness(const Section<3>& section, cell::CellType type,
                             const Coordinates<3>& reference) {
-  constexpr double share = 1e-6, third = 1.0 / 3;
+  constexpr double third = 1.0 / 3;
   const bool wedge = type == cell::CellType::wedge6;
+  const double share = !wedge && section.kinematics == Kinematics::finite ? 1e-4 : 1e-6;
   const Eigen::Index n = reference.rows();
   const Shape<3> centre = shape_at<3>(type, wedge ? Vec3(third, third, 0) : Vec3(Vec3::Zero()));
   const Vec3 sides = wedge ? Vec3(1, 1, 2) : Vec3(2, 2, 2);  // of the cell's own coordinates

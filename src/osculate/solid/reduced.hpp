@@ -64,11 +64,12 @@ using NodeMatrix3 = Sizes<3, Eigen::Dynamic>::NodeMatrix;
 /// linear; the same in each direction.
 ///
 /// Formula    W = k/2 sum_i u_i . P u_i , P = 1 - Q Q^T with the orthonormal Q of the quadratic
-///            (linear) polynomials of X at the nodes; k = 1e-6 E V h^2 / l^4 , E of the unloaded
-///            material, l the largest of the cell's lengths at its centre, h its height over the
-///            largest of the faces there. That is small beside the bending of a plate, too. No
-///            quadratic displacement has it, so that what converges does as before, nor does a
-///            rotation: P F X = 0
+///            (linear) polynomials of X at the nodes; k = c E V h^2 / l^4 , c = 1e-6, of hex20 with
+///            finite kinematics 1e-4, where the modes otherwise buckle, E of the unloaded material,
+///            l the largest of the cell's lengths at its centre, h its height over the largest of
+///            the faces there. That is small beside the bending of a plate, too. No quadratic
+///            displacement has it, so that what converges does as before, nor does a rotation: P F
+///            X = 0
 /// Tested by  tests/unit/solid/test_reduced.cpp, test_derivatives.cpp, test_invariance.cpp
 [[nodiscard]] NodeMatrix3 faint_stiffness(const Section<3>& section, cell::CellType type,
                                           const Coordinates<3>& reference);

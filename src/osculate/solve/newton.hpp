@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "osculate/solve/line_search.hpp"
 #include "osculate/solve/peeling.hpp"
@@ -253,6 +254,36 @@ bool is_sound(la::LinearSolver& solver, NewtonResult<Trial>& result) {
   return false;
 }
 
+/// A first correction that knows of no contact which was open may drive bodies far through each
+/// other. They go back to where they have just met, where the tangent knows the contact. `start`:
+/// where the correction began, of bodies that loads alone drive.
+///
+/// Decision   docs/decisions/062-attempts-that-diverge.md
+template <System S>
+Searched turn_back(S& system, const typename S::State& committed, const Eigen::VectorXd& du,
+                   const Eigen::VectorXd& residual, double time,
+                   const std::optional<typename S::Trial>& start,
+                   NewtonResult<typename S::Trial>& result, Searched searched) {
+  constexpr double most_of_it = 0.5, far_more = 10;
+  const Evaluation& e = result.evaluation;
+  if (!start || !e.ok || e.branch_residual.size() > 0 || !e.residual.allFinite() ||
+      relative_residual(result) <= most_of_it ||
+      du.dot(e.residual) <= far_more * std::abs(du.dot(residual)))
+    return searched;
+  result.trial = *start;
+  searched = line_search(system, committed, result, du, residual, time, true);
+  system.evaluate(committed, result.trial, time, true, result.evaluation);
+  return searched;
+}
+
+/// How many iterations there may be at the last one of `most`: one more where the solver of that
+/// one has told at its end that it was none, others where they gain.
+template <class Trial>
+int allowed(int most, int more, int limit, bool unsound, const NewtonResult<Trial>& result) {
+  if (unsound) return most + 1;
+  return most < limit && gains(result.iterations) ? std::min(most + more, limit) : most;
+}
+
 }  // namespace detail
 
 /// One increment by Newton's method from a committed state to `time`.
@@ -302,27 +333,32 @@ template <System S>
     const bool smooth = !branched && !result.evaluation.saddle;
     const bool weak = result.precision.condition > 0;
     const bool whole = judge.creeps() || peeling.turned();
+    std::optional<typename S::Trial> start;
+    if (i == 1 && search && smooth && !whole && !resistance.on() && !weak && !result.extrapolated &&
+        !result.evaluation.carried)
+      start = result.trial;
     if (search && smooth && !whole && (i > 1 || result.extrapolated || resistance.on() || weak))
       searched =
           detail::line_search(system, committed, result, du, residual, time, resistance.on(), weak);
     else
       result.trial = system.apply(result.trial, du, time, 1.0);
-    const double step = searched.step;
     // What is converged needs no tangent, and is not evaluated twice.
     const bool known =
         searched.evaluated && !resistance.on() && detail::meets(judge, du, energy_before, result);
     if (!known) system.evaluate(committed, result.trial, time, true, result.evaluation);
+    searched = detail::turn_back(system, committed, du, residual, time, start, result, searched);
+    const double step = searched.step;
     if (result.total.size() == 0) result.total.setZero(du.size());
     result.total += step * du;
-    const bool ended = detail::conclude(judge, du, step, energy_before, result, former) &&
-                       detail::is_sound(solver, result);
+    const bool last = detail::conclude(judge, du, step, energy_before, result, former);
+    const bool ended = last && detail::is_sound(solver, result);
     if (known && !ended) system.evaluate(committed, result.trial, time, true, result.evaluation);
     if (peeling.turns(system, committed, time, ended, result))
       judge.begin_again();
     else if (ended)
       return result;
-    if (i == most + peeling.iterations() && most < limit && detail::gains(result.iterations))
-      most = std::min(most + more, limit);
+    if (i == most + peeling.iterations())
+      most = detail::allowed(most, more, limit, last && !ended, result);
   }
   detail::fail(result, Outcome::not_converged,
                "not converged after " + std::to_string(most) + " iterations");

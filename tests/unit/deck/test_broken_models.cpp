@@ -86,6 +86,12 @@ TEST(BrokenModels, OneOfSeveralKeys) {
        "composite, plane, sphere, cylinder, cone, torus, nurbs_patch"},
       {"{set: base_line}", "{set: base_line, circle: {center: [0, 0], radius: 1}}",
        "model.yaml:9: rigid.base: 'set' and 'circle' exclude each other"},
+      {"{set: base_line}", "{set: base_line, mass: 2, kinematics: small}",
+       "model.yaml:9: rigid.base.kinematics: `small` goes with a `set` without a mass or a "
+       "density"},
+      {", radius: 3}}", ", radius: 3}, kinematics: small}",
+       "model.yaml:10: rigid.roll.kinematics: `small` goes with a `set` without a mass or a "
+       "density"},
       {"{linear_elastic: {E: 2.1e4, nu: 0.3}}", "{}",
        "model.yaml:5: materials.steel: needs one of linear_elastic, st_venant_kirchhoff, "
        "neo_hooke, elastoplastic, norton, deformation_plasticity, rubber, ogden, hyperfoam, "

@@ -59,6 +59,64 @@ std::string refusal_of(const std::string& text) {
   return "no error";
 }
 
+/// Along axes of their own the nodes follow, across them they are free.
+TEST(Couplings, NodesFollowABodyAlongAxes) {
+  const CoupledRun run(under_a_body("[ux], axes: {rectangular: {x: [1, 1, 0], xy: [0, 1, 0]}}",
+                                    "{on: hub, ux: 0.02, uy: 0.01, rz: 0.1}]"));
+  bool across = false;
+  for (const Index n : run.built.model.mesh.find_set("b.top")->nodes) {
+    const Vec2 arm = run.built.model.reference[static_cast<std::size_t>(n)] - Vec2(0.3, 2);
+    const Vec2 apart =
+        run.result.state.u.segment<2>(2 * n) - Vec2(0.02 - 0.1 * arm.y(), 0.01 + 0.1 * arm.x());
+    EXPECT_LT(std::abs(apart.sum()), 1e-13);
+    across = across || std::abs(apart[0] - apart[1]) > 1e-3;
+  }
+  EXPECT_TRUE(across);
+  // A circle about the reference point of the body: what is held around it turns with it.
+  const CoupledRun round(
+      under_a_body("[uy], axes: {cylindrical: {from: [0.3, 2, 0], to: [0.3, 2, 1]}}",
+                   "{on: hub, ux: 0, uy: 0, rz: 0.1}]"));
+  for (const Index n : round.built.model.mesh.find_set("b.top")->nodes) {
+    const Vec2 arm = round.built.model.reference[static_cast<std::size_t>(n)] - Vec2(0.3, 2);
+    EXPECT_NEAR(turn(arm).dot(Vec2(round.result.state.u.segment<2>(2 * n))),
+                0.1 * arm.squaredNorm(), 1e-13);
+  }
+  EXPECT_THAT(refusal_of(under_a_body("[ux], axes: {rectangular: {x: [1, 0, 0], xy: [2, 0, 0]}}",
+                                      "{on: hub, ux: 0, uy: 0, rz: 0}]")),
+              HasSubstr("the two points do not give axes"));
+}
+
+/// Two squares, free but for a body at the side of the first, which the second follows in the mean.
+std::string turned_by_a_body(const std::string& kinematics) {
+  return "osculate: 1\n"
+         "mesh: {generate: {a: {box: {x: [0, 1], y: [0, 1], elements: [2, 2]}}, b: {box: {x: [2, "
+         "3], y: [0, 1], elements: [2, 2]}}}}\n"
+         "materials: {m: {linear_elastic: {E: 100, nu: 0.3}}}\n"
+         "sections: [{on: a, material: m, element: plane_strain}, {on: b, material: m, element: "
+         "plane_strain}]\n"
+         "rigid: {hub: {set: a.right, reference: [1, 0.3]" +
+         kinematics +
+         "}}\n"
+         "coupling: [{on: b.left, rigid: hub}]\n"
+         "steps:\n"
+         "  - {name: s, increments: 1, prescribe: [{on: hub, ux: 0.2, uy: -0.3, rz: 0.1}]}\n";
+}
+
+/// Bodies of small strain that are bound to it are not strained by its rotation if that is small.
+TEST(Couplings, SmallRotationsOfABodyStrainNothing) {
+  const CoupledRun run(turned_by_a_body(", kinematics: small"));
+  for (Index n = 0; n < 18; ++n) {
+    const Vec2 arm = run.built.model.reference[static_cast<std::size_t>(n)] - Vec2(1, 0.3);
+    const Vec2 moved(0.2 - 0.1 * arm.y(), -0.3 + 0.1 * arm.x());
+    EXPECT_LT((run.result.state.u.segment<2>(2 * n) - moved).norm(), 1e-13) << n;
+  }
+  EXPECT_LT(run.reaction.norm(), 1e-11);
+  const CoupledRun finite(turned_by_a_body(""));
+  const Vec2 far = finite.result.state.u.segment<2>(0);
+  EXPECT_NEAR((far - Vec2(0.2, -0.3)).norm(), 2 * std::sin(0.05) * std::hypot(1, 0.3), 1e-2);
+  EXPECT_GT(finite.reaction.norm(), 1e-2);
+}
+
 /// u_i = U_i + theta (e_z x (X - X_b))_i in the directions that are named, and in no other.
 TEST(Couplings, NodesFollowABodyInSomeDirections) {
   for (const char* const of : {"[uy]", "[ux]", "[ux, uy]"}) {

@@ -122,6 +122,56 @@ TEST(ExplicitBar, IsStableBelowTheCriticalStepAndNotAbove) {
   EXPECT_EQ(unstable.result.failure->cause, model::FailureCause::unstable_time_step);
 }
 
+/// The bar at rest and a sphere of mass 2, under what `acts` says, as the amplitude from 0 on.
+std::string at_rest(const std::string& acts, int increments, double duration, double safety = 0.9) {
+  return fmt::format(R"(osculate: 1
+mesh: {{generate: {{bar: {{box: {{x: [0, 8], y: [0, 2], elements: [8, 1]}}}}}}}}
+materials: {{m: {{linear_elastic: {{E: 100, nu: 0, density: 1}}, expansion: {{alpha: 1e-3}}}}}}
+sections: [{{on: bar, material: m, element: plane_strain, kinematics: small}}]
+rigid: {{disc: {{circle: {{center: [0, 9], radius: 1}}, mass: 2, inertia: 0.5}}}}
+amplitudes: {{slow: [[0, 0], [1, 1]]}}
+steps: [{{name: push, increments: {}, duration: {}, {},
+  dynamics: {{scheme: {{central_differences: {{safety: {}}}}}}}}}]
+)",
+                     increments, duration, acts, safety);
+}
+
+/// Half a step's kick is all that there is: v = h / 2 f / m.
+TEST(ExplicitLoads, ThatBeginAtNothingMayTakeOneTimeStep) {
+  const double h = 0.01;
+  const auto velocity = [&](const std::string& acts, Index dof) {
+    const Flight run = run_of(at_rest(acts + ", amplitude: slow}]", 1, h));
+    EXPECT_EQ(run.result.outcome, solve::Outcome::converged) << run.result.message;
+    if (run.steps.empty()) return 0.0;
+    EXPECT_EQ(run.steps.at(0).count, 1);
+    return run.result.state.rates.velocity[dof];
+  };
+  const Index bodies = 2 * (18 + 3);  // behind the nodes of the bar and of the disc's frame
+  EXPECT_NEAR(velocity("forces: [{on: bar.right, fx: 3", 2 * 8), h / 2 * 3 / 0.5, 1e-14);
+  EXPECT_NEAR(velocity("pressure: [{on: bar.right, value: -3", 2 * 8), h / 2 * 3 / 0.5, 1e-14);
+  EXPECT_NEAR(velocity("body_force: [{on: bar, fx: 3", 2 * 3), h / 2 * 3, 1e-14);
+  EXPECT_NEAR(velocity("forces: [{on: disc, fx: 3", bodies), h / 2 * 3 / 2, 1e-14);
+  EXPECT_NEAR(velocity("forces: [{on: disc, mz: 3", bodies + 2), h / 2 * 3 / 0.5, 1e-14);
+  // An edge of length 2 is pushed by E alpha T, half of it each node.
+  EXPECT_NEAR(velocity("temperature: [{on: bar, value: 10", 2 * 8), h / 2 * 1 / 0.5, 1e-14);
+}
+
+TEST(ExplicitLoads, OfHeatAreNoGrowth) {
+  const Flight run = run_of(at_rest("temperature: [{on: bar, value: 10, amplitude: slow}]", 4, 40));
+  ASSERT_EQ(run.result.outcome, solve::Outcome::converged) << run.result.message;
+  const Eigen::VectorXd& u = run.result.state.u;
+  EXPECT_NEAR(u[2 * 8] - u[0], 8 * 1e-2, 2e-3);  // it swings a little
+}
+
+TEST(ExplicitLoads, StillTellOfGrowth) {
+  for (const char* const acts : {"forces: [{on: bar.right, fx: 3, amplitude: slow}]",
+                                 "temperature: [{on: bar, value: 10, amplitude: slow}]"}) {
+    const Flight run = run_of(at_rest(acts, 3, 200, 1.01));
+    EXPECT_EQ(run.result.outcome, solve::Outcome::numerical_failure) << acts;
+    EXPECT_THAT(run.result.message, HasSubstr("unstable")) << acts;
+  }
+}
+
 TEST(ExplicitBar, KeepsMomentumAndItsBalance) {
   const Built built = build_text(bar(0.8, 1, 20, 10));
   std::vector<double> momentum;

@@ -141,6 +141,23 @@ TEST(InpBetweenSteps, WhatCannotChangeIsTold) {
             "there is no *CONTACT PAIR of 'FEET' and 'MASTER'");
 }
 
+/// A law without a stick slope keeps the one that the pair has.
+TEST(InpBetweenSteps, FrictionThatDecaysMayComeLater) {
+  const auto text = [](const std::string& law) {
+    return law + pair + press +
+           "*STEP\n*STATIC\n*CHANGE FRICTION, INTERACTION=DRY\n*FRICTION, EXPONENTIAL DECAY\n0.4, "
+           "0.2, 3.\n*END STEP\n";
+  };
+  const std::string steps = part(text(dry), "steps");
+  for (const char* const what : {"mu: 0.4\n", "kinetic: 0.2\n", "decay: {speed: 0.33333333"})
+    expect_in(steps, what);
+  EXPECT_EQ(steps.find("penalty"), std::string::npos);
+  const std::string smooth =
+      "*SURFACE INTERACTION, NAME=DRY\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n1.E5,\n";
+  expect_in(message_of(text(smooth)),
+            "*FRICTION: needs a stick slope: the interaction 'DRY' has no friction at first");
+}
+
 TEST(InpBetweenSteps, TheLinearLawOfNodesPullsWhereATensionIsGiven) {
   const std::string pulling = R"(*SURFACE INTERACTION, NAME=DRY
 *SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR

@@ -107,6 +107,30 @@ TEST(InpConstraints, RigidBodyIsMovedAndTurnedByItsNodes) {
   EXPECT_LT((turned.displacement(1) - Vec3(2, 1, 0)).norm(), 1e-12);
 }
 
+/// Without NLGEOM a rigid body moves by theta x r, which strains no cell of small strain.
+TEST(InpConstraints, RigidBodiesTurnLinearlyWithoutNlgeom) {
+  const Vec3 theta(0.1, -0.05, 0.08), far(0.2, 0.1, -0.3);
+  const auto places = [](const DeckRun& run) { return run.built.model.reference; };
+  for (const std::string body :
+       {"*RIGID BODY, NSET=FINISH, REF NODE=901, ROT NODE=902\n",
+        "*COUPLING, REF NODE=901, SURFACE=TIP, CONSTRAINT NAME=C\n*KINEMATIC\n1, 6\n",
+        "*COUPLING, REF NODE=901, SURFACE=TIP, CONSTRAINT NAME=C\n*DISTRIBUTING\n1, 6\n"}) {
+    const bool by_nodes = body.starts_with("*RIGID");
+    const int turning = by_nodes ? 902 : 901, first = by_nodes ? 1 : 4;
+    std::string moves = "*BOUNDARY\n";
+    for (int i = 0; i < 3; ++i)
+      moves += fmt::format("901, {0}, {0}, {1}\n{2}, {3}, {3}, {4}\n", i + 1, far[i], turning,
+                           first + i, theta[i]);
+    const DeckRun run = run_deck(bar(2) + body + step(moves));
+    const Vec3 centre = places(run)[static_cast<std::size_t>(run.node(901))];
+    for (const int number : {1, 2, 3, 4, 11, 12, 13, 14, 21, 22, 23, 24}) {
+      const Vec3 arm = places(run)[static_cast<std::size_t>(run.node(number))] - centre;
+      EXPECT_LT((run.displacement(number) - far - theta.cross(arm)).norm(), 1e-12) << body;
+    }
+    EXPECT_LT(run.reaction.at(0).norm(), 1e-10) << body;
+  }
+}
+
 TEST(InpConstraints, KinematicCouplingIsARigidBody) {
   const std::string text = bar(2) +
                            "*COUPLING, REF NODE=901, SURFACE=TIP, CONSTRAINT NAME=C\n*KINEMATIC\n"
@@ -128,13 +152,15 @@ std::string message_of(const std::string& text) {
 
 /// A cube, whose top is coupled with a node above it.
 std::string coupled_cube(const std::string& directions, const std::string& rest,
-                         const std::string& parameters = "") {
+                         const std::string& parameters = "", const std::string& orientation = "") {
   return "*NODE, NSET=NALL\n" + cube_nodes(1, {0, 0, 0}) +
          "20, 0.5, 0.7, 1.5\n*ELEMENT, TYPE=C3D8, ELSET=E\n1, 1, 2, 3, 4, 5, 6, 7, 8\n"
          "*SURFACE, NAME=TOP\nE, S2\n*MATERIAL, NAME=M\n*ELASTIC\n1000., 0.3\n"
          "*SOLID SECTION, ELSET=E, MATERIAL=M\n*NSET, NSET=BASE\n1, 2, 3, 4\n*BOUNDARY\n"
-         "BASE, 1, 3\n*COUPLING, CONSTRAINT NAME=C, REF NODE=20, SURFACE=TOP\n*KINEMATIC\n" +
-         directions + "*BOUNDARY\n20, 2, 2\n20, 4, 4\n" + step(rest, parameters);
+         "BASE, 1, 3\n*ORIENTATION, NAME=O, SYSTEM=RECTANGULAR\n1., 1., 0., -1., 1., 0.\n"
+         "*COUPLING, CONSTRAINT NAME=C, REF NODE=20, SURFACE=TOP" +
+         orientation + "\n*KINEMATIC\n" + directions + "*BOUNDARY\n20, 2, 2\n20, 4, 4\n" +
+         step(rest, parameters);
 }
 
 /// Numbers of CalculiX 2.20.
@@ -151,6 +177,25 @@ TEST(InpConstraints, KinematicCouplingOfSomeDirections) {
   EXPECT_THAT(message_of(coupled_cube("1, 1\n", "", ", NLGEOM")),
               HasSubstr("some directions alone are not supported with NLGEOM"));
   EXPECT_THAT(message_of(coupled_cube("4, 6\n", "")), HasSubstr("couples no displacement"));
+}
+
+/// Numbers of CalculiX 2.20. Where all displacements follow axes do not matter.
+TEST(InpConstraints, KinematicCouplingAlongAxes) {
+  const DeckRun run =
+      run_deck(coupled_cube("1, 1\n3\n", "*CLOAD\n20, 1, 1.\n", "", ", ORIENTATION=O"));
+  const std::array<Vec3, 4> there{{{4.395068e-3, 4.414064e-3, 3.609132e-3},
+                                   {4.903196e-3, 4.392694e-4, -3.609132e-3},
+                                   {7.168402e-3, 1.640731e-3, -3.609132e-3},
+                                   {8.369863e-3, 3.905936e-3, 3.609132e-3}}};
+  for (int k = 0; k < 4; ++k)
+    EXPECT_LT((run.displacement(5 + k) - there[static_cast<std::size_t>(k)]).norm(), 1e-8) << k;
+  EXPECT_NEAR(run.displacement(20).x(), 1.311160e-2, 1e-8);
+  const DeckRun with =
+      run_deck(coupled_cube("1, 3\n", "*CLOAD\n20, 1, 1.\n", "", ", ORIENTATION=O"));
+  const DeckRun without = run_deck(coupled_cube("1, 3\n", "*CLOAD\n20, 1, 1.\n"));
+  EXPECT_EQ(with.displacement(7), without.displacement(7));
+  EXPECT_THAT(message_of(coupled_cube("1, 1\n", "", "", ", ORIENTATION=P")),
+              HasSubstr("unknown ORIENTATION 'P'"));
 }
 
 /// Abaqus: nodes that move as another one, and nodes of rigid bodies by more than one set.

@@ -158,11 +158,48 @@ TEST(InpParameters, AmplitudesThatAreNoTables) {
     }
     return std::string("no error");
   };
+  EXPECT_THAT(refused("DEFINITION=DECAY\n1, 2., 0., 1.\n"),
+              HasSubstr("DEFINITION=DECAY is not supported"));
   EXPECT_THAT(refused("DEFINITION=PERIODIC\n1, 2., 0., 1.\n"),
-              HasSubstr("DEFINITION=PERIODIC is not supported"));
+              HasSubstr("expected 1 pairs of A and B, found 0"));
+  EXPECT_THAT(refused("DEFINITION=PERIODIC\n1, 0., 0., 1.\n1., 1.\n"),
+              HasSubstr("a circular frequency above 0"));
+  EXPECT_THAT(refused("DEFINITION=PERIODIC\n1, 1.E5, 0., 1.\n1., 1.\n"),
+              HasSubstr("a step has 1.59e+04 of its shortest waves: at most 500 are supported"));
   EXPECT_THAT(refused("DEFINITION=EQUALLY SPACED\n1., 3.\n"), HasSubstr("FIXED INTERVAL"));
   EXPECT_THAT(refused("VALUE=ABSOLUTE\n0., 0., 1., 1.\n"),
               HasSubstr("VALUE=ABSOLUTE is not supported"));
+}
+
+// Abaqus: A0 + sum A_n cos n w (t - t0) + B_n sin n w (t - t0) from t0 on, before A0.
+TEST(InpParameters, AmplitudesOfWaves) {
+  const auto table = [](const std::string& amplitude) {
+    TranslatedDeck deck = deck_with("*AMPLITUDE, NAME=A, DEFINITION=PERIODIC" + amplitude +
+                                    in_step("*CLOAD, AMPLITUDE=A\nTOP, 1, 1.\n"));
+    return parse_model(std::move(deck.root), "a.inp").amplitudes.at(0);
+  };
+  const auto wave = [](double t) {
+    if (t < 0.25) return 0.5;
+    const double a = 7 * (t - 0.25);
+    return 0.5 + std::cos(a) - 2 * std::sin(a) + 0.3 * std::sin(2 * a);
+  };
+  for (const std::string text :
+       {"\n2, 7., 0.25, 0.5\n1., -2., 0., 0.3\n",
+        ", SHIFTX=0.15, SHIFTY=0.2\n2, 7., 0.1, 0.3\n1., -2.\n0., 0.3\n"}) {
+    const auto points = table(text).points;
+    EXPECT_EQ(points.front(), std::pair(0.0, 0.5));
+    double apart = 0;
+    for (std::size_t k = 1; k < points.size(); ++k) {
+      const auto& [time, factor] = points[k];
+      const auto& [before, factor_before] = points[k - 1];
+      EXPECT_NEAR(factor, wave(time), 1e-12);
+      if (before < 0.25) continue;
+      apart =
+          std::max(apart, std::abs(0.5 * (factor + factor_before) - wave(0.5 * (time + before))));
+    }
+    EXPECT_LT(apart, 3e-5);
+    EXPECT_GT(points.size(), 500U);
+  }
 }
 
 TEST(InpParameters, ViscousForcesOfStabilizeAreToldOf) {

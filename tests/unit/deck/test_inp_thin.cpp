@@ -1,4 +1,5 @@
 // Shells and beams of decks: sections, knots, rotations.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -73,6 +74,50 @@ TEST(InpThin, ForcesAlongEdgesAreForcesOfTheirFaces) {
   EXPECT_NEAR(run.displacement(5).y(), 0.009, 1e-12);
   EXPECT_THAT(message(plate("E, EDNOR2, 3.\n", ", NODAL THICKNESS\n*NODAL THICKNESS\nN, 0.1\n")),
               HasSubstr("EDNOR needs shells of one thickness"));
+}
+
+/// A plate of `along` by `across` S8R, 10 x 1 x 0.2, clamped and loaded by 0.3 at its end.
+std::string plate_of_s8r(int along, int across) {
+  const int row = 2 * across + 1;
+  const auto node = [&](int i, int j) { return i * row + j + 1; };
+  std::string text = "*NODE, NSET=N\n", end;
+  for (int i = 0; i <= 2 * along; ++i)
+    for (int j = 0; j < row; ++j)
+      if (i % 2 == 0 || j % 2 == 0)
+        text +=
+            fmt::format("{}, {:.17g}, {:.17g}, 0\n", node(i, j), 5.0 * i / along, 0.5 * j / across);
+  text += "*ELEMENT, TYPE=S8R, ELSET=E\n";
+  for (int e = 0; e < along * across; ++e) {
+    const int i = 2 * (e / across), j = 2 * (e % across);
+    text += fmt::format("{}, {}, {}, {}, {}, {}, {}, {}, {}\n", e + 1, node(i, j), node(i + 2, j),
+                        node(i + 2, j + 2), node(i, j + 2), node(i + 1, j), node(i + 2, j + 1),
+                        node(i + 1, j + 2), node(i, j + 1));
+  }
+  std::string held = "*NSET, NSET=START\n";
+  for (int j = 0; j < row; ++j) {
+    held += fmt::format("{},\n", node(0, j));
+    end += fmt::format("{}, 3, {:.17g}\n", node(2 * along, j), 0.3 / row);
+  }
+  return text + held +
+         "*MATERIAL, NAME=M\n*ELASTIC\n210000., 0.3\n*SHELL SECTION, ELSET=E, MATERIAL=M\n0.2\n"
+         "*BOUNDARY\nSTART, 1, 6\n*STEP, NLGEOM\n*STATIC\n0.1, 1.\n*CLOAD\n" +
+         end + "*END STEP\n";
+}
+
+/// Rows of one cell have modes that its points do not see, which buckle as it bends far.
+TEST(InpThin, RowsOfS8RBendFarWithNlgeom) {
+  const auto bent = [](int along, int across, std::size_t& iterations) {
+    const DeckRun run = run_deck(plate_of_s8r(along, across));
+    iterations = 0;
+    for (const solve::IncrementRecord& record : run.result.steps.at(0).increments)
+      iterations += record.iterations.size();
+    return run.displacement(2 * along * (2 * across + 1) + across + 1).z();
+  };
+  std::size_t row = 0, others = 0;
+  const double fine = bent(10, 2, others);
+  EXPECT_NEAR(bent(4, 1, row), fine, 0.03 * fine);
+  EXPECT_LT(row, 300U);  // 5388 with a millionth
+  EXPECT_LT(others, 60U);
 }
 
 TEST(InpThin, SectionsAreSolids) {

@@ -83,6 +83,30 @@ TEST(PairChanges, DampingOfMortar) {
   EXPECT_TRUE(b.model.pair_changes[0].damping);
 }
 
+/// A law that says no penalty has that of the pair.
+TEST(PairChanges, OfFrictionKeepThePenalty) {
+  for (const auto& [given, expected] :
+       {std::pair{std::string("{mu: 0.1, penalty: 200}"), 200.0}, {"{mu: 0.1}", 0.0}}) {
+    const Built b =
+        built("normal: {penalty: 500}, friction: {coulomb: " + given + "}", ", duration: 1",
+              ", duration: 1, contact: [{pair: floor, friction: {coulomb: {mu: 0.4, "
+              "kinetic: 0.2, decay: {speed: 3}}}}]");
+    const double at_first = contact::stiffness(*b.model.pairs[0].definition.friction);
+    if (expected > 0) {
+      EXPECT_EQ(at_first, expected);
+    }
+    EXPECT_GT(at_first, 0);
+    ASSERT_TRUE(b.model.pair_changes.at(0).friction);
+    const contact::FrictionLaw& law = *b.model.pair_changes[0].friction;
+    EXPECT_EQ(contact::stiffness(law), at_first);
+    EXPECT_EQ(law.as<contact::Coulomb>()->kinetic, 0.2);
+  }
+  const Built normal =
+      built("normal: {penalty: auto}", "", ", contact: [{pair: floor, normal: {penalty: auto}}]");
+  EXPECT_EQ(contact::penalty_of(normal.model.pair_changes.at(0).normal),
+            contact::penalty_of(normal.model.pairs[0].definition.normal));
+}
+
 TEST(PairChanges, AreRefusedWithTheReason) {
   const std::string plain = "normal: {penalty: 500}";
   const auto expect = [&](const std::string& pair, const std::string& change,
@@ -93,8 +117,10 @@ TEST(PairChanges, AreRefusedWithTheReason) {
   };
   expect(plain, "pair: flor, active: false", "did you mean 'floor'");
   expect(plain, "pair: floor", "one of");
-  expect(plain, "pair: floor, normal: {penalty: auto}", "needs its penalty as a number");
-  expect(plain, "pair: floor, friction: {coulomb: {mu: 0.1}}", "needs its penalty as a number");
+  expect(plain, "pair: floor, normal: {penalty: auto}",
+         "needs its penalty as a number: that of the pair is none of the bodies'");
+  expect(plain, "pair: floor, friction: {coulomb: {mu: 0.1}}",
+         "needs its penalty as a number: the pair has no friction that has one");
   expect(plain, "pair: floor, normal: {penalty: 500, separation: tied}",
          "tied from the start of the analysis");
   expect(plain + ", enforcement: lagrange_multiplier", "pair: floor, active: false",

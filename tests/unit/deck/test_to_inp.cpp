@@ -335,7 +335,7 @@ TEST(ToInp, WhatHoldsAndPullsNodes) {
 // A body of a model file is held where nothing is said, one of a deck is free.
 TEST(ToInp, RigidBodiesAndTheirMotions) {
   const std::string text =
-      cube(elastic, "rigid: {head: {set: c.top, reference: [0.5, 0.5, 2]}}\n",
+      cube(elastic, "rigid: {head: {set: c.top, reference: [0.5, 0.5, 2], kinematics: small}}\n",
            "  - {name: a, increments: 1, prescribe: [{on: c.bottom, ux: 0, uy: 0, uz: 0}, {on: "
            "head, uz: -0.1}], release: [{on: head, of: [rx]}], forces: [{on: head, mx: 3}]}\n");
   const std::string deck = written(text);
@@ -347,8 +347,16 @@ TEST(ToInp, RigidBodiesAndTheirMotions) {
   EXPECT_THAT(deck, HasSubstr("*CLOAD\n29, 1, 3\n"));
   const Description after = again(text);
   ASSERT_EQ(after.rigid.size(), 1U);
+  EXPECT_EQ(after.rigid[0].kinematics->value, Kinematics::small);
   ASSERT_EQ(after.steps.at(0).release.size(), 1U);
   EXPECT_TRUE(after.steps[0].release[0].of[3]);
+  try {
+    (void)written(edited(text, ", kinematics: small", ""));
+    ADD_FAILURE() << "of any rotation";
+  } catch (const core::InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("a rigid body in a deck turns as the strain of its cells "
+                                        "is: `kinematics: small`"));
+  }
 }
 
 TEST(ToInp, StepsOfAllKinds) {

@@ -123,6 +123,20 @@ TEST(Inp, SurfacesOfElementsAndOfNodes) {
   EXPECT_THAT(mesh::check_mesh(mesh), IsEmpty());
 }
 
+TEST(Inp, SurfacesMadeOfSurfaces) {
+  const mesh::Mesh mesh =
+      read(bricks +
+           "*SURFACE, NAME=BOTH, COMBINE=UNION\nUP, side\n*SURFACE, NAME=REST, COMBINE=DIFFERENCE\n"
+           "SKIN, BOTH\n*SURFACE, NAME=EDGE, COMBINE=INTERSECTION\nskin, Side\n"
+           "*SURFACE, NAME=UP\n6, S2\n*SURFACE, NAME=SIDE\nEALL, S3\n*SURFACE, NAME=SKIN\nEALL\n");
+  EXPECT_THAT(cells(mesh, "BOTH"), UnorderedElementsAre(5, 6, 6));
+  EXPECT_THAT(nodes(mesh, "BOTH"), ElementsAre(1, 2, 5, 6, 9, 10, 11, 12));
+  EXPECT_THAT(cells(mesh, "REST"), SizeIs(7));
+  EXPECT_THAT(nodes(mesh, "EDGE"), ElementsAre(1, 2, 5, 6, 9, 10));
+  EXPECT_EQ(mesh.blocks[1].size(), 10);
+  EXPECT_THAT(mesh::check_mesh(mesh), IsEmpty());
+}
+
 TEST(Inp, SurfacesInThePlaneHaveTheBodyOnTheRight) {
   const mesh::Mesh mesh = read(
       "*NODE\n1, 0, 0\n2, 1, 0\n3, 2, 0\n4, 0, 1\n5, 1, 1\n6, 2, 1\n*ELEMENT, TYPE=CPE4, ELSET=E\n"

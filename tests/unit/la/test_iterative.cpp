@@ -181,6 +181,31 @@ TEST(Iterative, WhatHasComeLooseIsFoundOutAtTheEnd) {
   EXPECT_EQ(solver.factor(loose.matrix(), 1, Symmetry::indefinite).status, SolveStatus::singular);
 }
 
+/// It has come loose but for rounding, and the forces do not balance.
+TEST(Iterative, ASolutionThatGoesFarIsNotBelieved) {
+  ElasticBlock held(width, width, width, false), loose(width, width, width, false);
+  for (Index i = 0; i < held.unknowns(); ++i) {
+    held.builder().add(i, i, 1.0);
+    loose.builder().add(i, i, 3e-14);
+  }
+  const Eigen::VectorXd forces = Eigen::VectorXd::Ones(held.unknowns());
+  Iterative solver;
+  solver.place(held.places());
+  ASSERT_EQ(solver.factor(held.matrix(), 1, Symmetry::indefinite).status, SolveStatus::ok);
+  solver.may_come_loose();
+  ASSERT_EQ(solver.factor(held.matrix(), 1, Symmetry::indefinite).status, SolveStatus::ok);
+  const int tried = solver.work().iterations;
+  Eigen::VectorXd x = forces;
+  EXPECT_EQ(solver.solve(x), SolveStatus::ok);
+  const int solved = solver.work().iterations - tried;
+  EXPECT_LT(solved, 30) << "what does not go far is not tried";
+  ASSERT_EQ(solver.factor(loose.matrix(), 1, Symmetry::indefinite).status, SolveStatus::ok);
+  solver.aim(1e-3);
+  x = forces;
+  EXPECT_EQ(solver.solve(x), SolveStatus::singular) << x.norm();
+  EXPECT_EQ(solver.work().given_up, 1);
+}
+
 TEST(Iterative, WhatItKnowsNothingOfOrIsSmallIsFactored) {
   const ElasticBlock block = pressed(10, 0.3), small(3, 3, 3);
   Iterative solver;

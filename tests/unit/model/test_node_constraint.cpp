@@ -126,6 +126,31 @@ TEST(NodeConstraint, VanishesForRigidMotions) {
   }
 }
 
+/// With a small rotation the mean motion is linear, and linearised rigid motions fulfil it.
+template <int Dim>
+void expect_linear(std::size_t count) {
+  Setting<Dim> s(Kind::mean_motion, count);
+  s.rest.small = true;
+  const NodeConstraintValue<Dim> g = s.evaluate(s.at);
+  EXPECT_EQ(g.curvature.size() + g.mixed.size() + g.body_curvature.size(), 0);
+  const Eigen::VectorXd d = Eigen::VectorXd::LinSpaced(s.at.size(), -1, 2);
+  const Eigen::VectorXd dg =
+      g.gradient * d.head(g.gradient.cols()) + g.of_body * d.tail(g.of_body.cols());
+  EXPECT_LT((s.evaluate(s.at + d).value - g.value - dg).norm(), 1e-13 * dg.norm());
+  body::BasicRigidMotion<Dim> motion = s.rest;
+  const auto nodes = Dim * static_cast<Eigen::Index>(count);
+  for (int i = 0; i < body::motions<Dim>; ++i) motion.component(i) = s.at[nodes + i];
+  for (std::size_t n = 0; n < count; ++n)
+    s.at.template segment<Dim>(Dim * static_cast<Eigen::Index>(n)) =
+        motion.position(s.reference[n]);
+  EXPECT_LT(s.evaluate(s.at).value.norm(), 1e-14);
+  EXPECT_GT(g.value.norm(), 0.1);
+}
+TEST(NodeConstraint, MeanMotionOfASmallRotationIsLinear) {
+  expect_linear<2>(4);
+  expect_linear<3>(6);
+}
+
 /// What acts on the body reaches the nodes as the same force and the same moment.
 TEST(NodeConstraint, MeanMotionPassesForcesAndMomentsOn) {
   Setting<3> s(Kind::mean_motion, 6);

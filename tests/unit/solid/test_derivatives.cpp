@@ -3,6 +3,7 @@
 
 #include "cell_cases.hpp"
 #include "derivative_check.hpp"
+#include "osculate/solid/reduced.hpp"
 
 namespace osculate::solid::testing {
 namespace {
@@ -91,15 +92,27 @@ TEST_P(DisplacementCell, ForceIsTheDerivativeOfTheStrainEnergy) {
   });
 }
 
+/// Without what resists the modes that points do not see, of which finite kinematics have more.
+Eigen::MatrixXd tangent_of_points(const CellCase& c, const Eigen::MatrixXd& x) {
+  Eigen::MatrixXd k = evaluated(c, x, 0 * x).tangent;
+  const auto* const of = std::get_if<VolumeCase>(&c.of);
+  if (!of || !has_faint_stiffness(of->section, of->type)) return k;
+  const Eigen::MatrixXd faint = faint_stiffness(of->section, of->type, Coordinates<3>(x));
+  for (Eigen::Index i = 0; i < faint.rows(); ++i)
+    for (Eigen::Index j = 0; j < faint.cols(); ++j)
+      k.block<3, 3>(3 * i, 3 * j).diagonal().array() -= faint(i, j);
+  return k;
+}
+
 // The limit of finite kinematics at no displacement is small kinematics, formulation by
 // formulation: two codes, one stiffness.
 TEST_P(EveryCell, FiniteKinematicsStartAsSmallOnes) {
   for_each_cell(GetParam(), [](const CellCase& c) {
     if (!c.finite()) return;
-    const Eigen::MatrixXd x = curved(c), none = 0 * x;
-    const CellResult a = evaluated(c, x, none), b = evaluated(c.as_small(), x, none);
-    EXPECT_LT((a.tangent - b.tangent).norm(), 1e-14 * b.tangent.norm());
-    EXPECT_EQ(a.force.norm(), 0.0);
+    const Eigen::MatrixXd x = curved(c);
+    const Eigen::MatrixXd a = tangent_of_points(c, x), b = tangent_of_points(c.as_small(), x);
+    EXPECT_LT((a - b).norm(), 1e-14 * b.norm());
+    EXPECT_EQ(evaluated(c, x, 0 * x).force.norm(), 0.0);
   });
 }
 

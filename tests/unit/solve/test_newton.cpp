@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "osculate/la/mumps.hpp"
 #include "retold_solver.hpp"
@@ -295,6 +296,47 @@ TEST(Newton, GoesOnWhileTheResidualHalvesEveryTenIterations) {
   const auto creeps = with_share(0.95);
   EXPECT_EQ(creeps.outcome, Outcome::not_converged);
   EXPECT_EQ(creeps.iterations.size(), 25U);
+}
+
+/// A mass on a spring that a load drives against a stop, 40 times as far as it may go.
+TEST(Newton, AFirstCorrectionThatGoesFarTurnsBackToWhereItMeets) {
+  constexpr double stop = 1e6;
+  ToySystem system =
+      scalar_system([](double x, double t) { return x + stop * std::max(0.0, x - 1) - 40 * t; },
+                    [](double x) { return x > 1 ? 1 + stop : 1; });
+  const auto result = solve_from(system, 0, {.residual = 1e-9});
+  ASSERT_EQ(result.outcome, Outcome::converged) << result.reason;
+  EXPECT_NEAR(result.trial.x[0], (40 + stop) / (1 + stop), 1e-14);
+  EXPECT_GT(result.iterations.front().step, 1.0 / 40);
+  EXPECT_LT(result.iterations.front().step, 1.0 / 40 + 1e-3);
+  EXPECT_EQ(result.iterations.size(), 2U);
+}
+
+/// Tells once, when it is asked, that its last matrix was not sound.
+class Doubtful final : public la::LinearSolver {
+ public:
+  la::FactorReport factor(const la::SparseMatrix& k, std::uint64_t version,
+                          la::Symmetry symmetry) override {
+    return inner_.factor(k, version, symmetry);
+  }
+  la::SolveStatus solve(Eigen::VectorXd& rhs) override { return inner_.solve(rhs); }
+  la::SolveStatus solve(Eigen::MatrixXd& rhs) override { return inner_.solve(rhs); }
+  [[nodiscard]] double seconds() const override { return inner_.seconds(); }
+  [[nodiscard]] bool sound() override { return std::exchange(sound_, true); }
+
+ private:
+  la::Mumps inner_;
+  bool sound_ = false;
+};
+
+TEST(Newton, HasOneIterationMoreWhereTheLastWasNotSound) {
+  ToySystem system =
+      scalar_system([](double x, double t) { return x - t; }, [](double) { return 1.0; });
+  Doubtful solver;
+  const auto result =
+      newton(system, {vector({0.0})}, 1.0, {.residual = 1e-8, .max_iterations = 1}, solver);
+  EXPECT_EQ(result.outcome, Outcome::converged) << result.reason;
+  EXPECT_EQ(result.iterations.size(), 2U);
 }
 
 /// Two springs in a row, the first end moved: the boundary moves with the body, not ahead of it.

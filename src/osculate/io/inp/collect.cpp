@@ -188,8 +188,8 @@ class Collector {
     const Parameter* const type = find_parameter(card, "TYPE");
     const std::string kind = type ? capitals(type->value) : "ELEMENT";
     if (kind != "ELEMENT" && kind != "NODE") return;  // of a shape, not of the mesh
-    if (find_parameter(card, "COMBINE"))
-      fail(deck_, card, "surfaces made of surfaces (COMBINE) are not read");
+    if (const Parameter* const combine = find_parameter(card, "COMBINE"))
+      return read_combined(card, capitals(combine->value));
     const std::string name = name_in(card, "NAME");
     if (kind == "NODE") {
       RawSet& set = set_in(here().node_surfaces, card, name);
@@ -200,7 +200,44 @@ class Collector {
       return;
     }
     RawSurface& surface = set_in(here().surfaces, card, name);
+    if (surface.combination != Combination::none) twice(card, name);
     for (const Line& line : lines_of(deck_, card)) add_entry(surface, line);
+  }
+
+  [[noreturn]] void twice(const Card& card, const std::string& name) const {
+    fail(deck_, card,
+         fmt::format("the surface {} is there already: one that is made of others "
+                     "has one card",
+                     shown(name)));
+  }
+
+  /// A surface that is made of others.
+  void read_combined(const Card& card, const std::string& how) {
+    if (const Parameter* const type = find_parameter(card, "TYPE");
+        type && capitals(type->value) == "NODE")
+      fail(deck_, card, "COMBINE is read of surfaces of elements, not of nodes");
+    const std::string name = name_in(card, "NAME");
+    RawSurface& surface = set_in(here().surfaces, card, name);
+    if (!surface.entries.empty() || surface.combination != Combination::none) twice(card, name);
+    if (how == "UNION") surface.combination = Combination::unite;
+    if (how == "DIFFERENCE") surface.combination = Combination::difference;
+    if (how == "INTERSECTION") surface.combination = Combination::intersection;
+    if (surface.combination == Combination::none)
+      fail(deck_, card,
+           fmt::format("expected COMBINE=UNION, DIFFERENCE or INTERSECTION, found {}", shown(how)));
+    for (const Line& line : lines_of(deck_, card)) {
+      Fields fields(deck_, line);
+      while (!fields.done()) {
+        const std::string_view field = fields.next().value_or("");
+        if (field.empty()) continue;
+        SetName part{name_of(field), own_scope, line.at, true};
+        part.scope = take_instance(part.name);
+        surface.parts.push_back(std::move(part));
+      }
+    }
+    const bool two = surface.combination != Combination::unite;
+    if (surface.parts.empty() || (two && surface.parts.size() != 2))
+      fail(deck_, card, fmt::format("expected {} of surfaces", two ? "two names" : "names"));
   }
 
   void add_entry(RawSurface& surface, const Line& line) const {

@@ -50,7 +50,7 @@ class Builder {
         raw_(raw_mesh(deck)),
         numbering_(add_cells(deck, raw_, out_.mesh)),
         members_(deck, raw_, numbering_, out_.mesh),
-        sides_(deck, numbering_, out_.mesh) {}
+        sides_(deck, raw_, numbering_, out_.mesh) {}
 
   /// Sets of elements first: they keep their names.
   DeckMesh build() {

@@ -46,10 +46,15 @@ struct SurfaceEntry {
   bool of_load = false;     ///< `side` is what a pressure is called: P1
 };
 
+/// Of what a surface that is made of surfaces has the facets.
+enum class Combination { none, unite, difference, intersection };
+
 struct RawSurface {
   std::string name;
   Place at{};
   std::vector<SurfaceEntry> entries;
+  Combination combination = Combination::none;
+  std::vector<SetName> parts;  ///< the surfaces that it is made of
 };
 
 /// Elements of one card.

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
+
+#include "osculate/core/text.hpp"
 
 namespace osculate::io::inp {
 namespace {
@@ -31,6 +34,24 @@ cell::CellType side_nodes(const mesh::Block& block, Index cell, const Side& side
   nodes[1] = from[edge[0]];
   if (edge[2] >= 0) nodes[2] = from[edge[2]];
   return info.edge_type;
+}
+
+bool comes_first(const mesh::CellRef& a, const mesh::CellRef& b) {
+  return std::pair(a.block, a.cell) < std::pair(b.block, b.cell);
+}
+
+/// Of two that are sorted.
+std::vector<mesh::CellRef> combined(Combination how, const std::vector<mesh::CellRef>& a,
+                                    const std::vector<mesh::CellRef>& b) {
+  std::vector<mesh::CellRef> out;
+  const auto to = std::back_inserter(out);
+  if (how == Combination::unite)
+    std::set_union(a.begin(), a.end(), b.begin(), b.end(), to, comes_first);
+  if (how == Combination::difference)
+    std::set_difference(a.begin(), a.end(), b.begin(), b.end(), to, comes_first);
+  if (how == Combination::intersection)
+    std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), to, comes_first);
+  return out;
 }
 
 }  // namespace
@@ -151,8 +172,33 @@ void Sides::add_free(const SurfaceEntry& entry, const std::vector<Index>& elemen
   }
 }
 
-std::vector<mesh::CellRef> Sides::of(const RawSurface& surface, std::uint32_t scope,
-                                     Members& members) {
+std::vector<mesh::CellRef> Sides::of_parts(const RawSurface& surface, std::uint32_t scope,
+                                           Members& members) {
+  if (std::ranges::find(open_, &surface) != open_.end())
+    fail(deck_, surface.at, fmt::format("the surface {} is made of itself", shown(surface.name)));
+  open_.push_back(&surface);
+  std::vector<mesh::CellRef> cells;
+  for (const SetName& part : surface.parts) {
+    const std::uint32_t meant = part.scope == own_scope ? scope : part.scope;
+    const Named<RawSurface>& all = raw_.scopes[meant].surfaces;
+    const auto found = all.find(capitals(part.name));
+    if (found == all.end()) {
+      std::vector<std::string> names;
+      for (const auto& [key, one] : all) names.push_back(one.name);
+      fail(deck_, part.at, core::unknown_name_message("surface of elements", part.name, names));
+    }
+    std::vector<mesh::CellRef> of_part = of(found->second, meant, members);
+    cells = &part == &surface.parts.front() ? std::move(of_part)
+                                            : combined(surface.combination, cells, of_part);
+  }
+  open_.pop_back();
+  if (cells.empty())
+    fail(deck_, surface.at, fmt::format("the surface {} has no facets", shown(surface.name)));
+  return cells;
+}
+
+std::vector<mesh::CellRef> Sides::of_entries(const RawSurface& surface, std::uint32_t scope,
+                                             Members& members) {
   std::vector<mesh::CellRef> cells;
   for (const SurfaceEntry& entry : surface.entries) {
     const std::uint32_t meant = entry.set.scope == own_scope ? scope : entry.set.scope;
@@ -165,6 +211,16 @@ std::vector<mesh::CellRef> Sides::of(const RawSurface& surface, std::uint32_t sc
     }
     for (const Index element : elements) add_side(entry, element, cells);
   }
+  std::sort(cells.begin(), cells.end(), comes_first);
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  return cells;
+}
+
+std::vector<mesh::CellRef> Sides::of(const RawSurface& surface, std::uint32_t scope,
+                                     Members& members) {
+  std::vector<mesh::CellRef> cells = surface.combination == Combination::none
+                                         ? of_entries(surface, scope, members)
+                                         : of_parts(surface, scope, members);
   const auto dimension = [&](const mesh::CellRef& ref) {
     return cell::info(mesh_.blocks[static_cast<std::size_t>(ref.block)].type).dimension;
   };
@@ -172,11 +228,6 @@ std::vector<mesh::CellRef> Sides::of(const RawSurface& surface, std::uint32_t sc
     if (dimension(ref) != dimension(cells.front()))
       fail(deck_, surface.at,
            fmt::format("the surface '{}' has edges and faces; expected one of them", surface.name));
-  const auto less = [](const mesh::CellRef& a, const mesh::CellRef& b) {
-    return std::pair(a.block, a.cell) < std::pair(b.block, b.cell);
-  };
-  std::sort(cells.begin(), cells.end(), less);
-  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
   return cells;
 }
 
