@@ -174,9 +174,10 @@ void write_material(const Material& material, const std::string& damping, Leaves
                     std::string& out);
 /// `*DAMPING` by the steps with inertia; empty: there is none.
 [[nodiscard]] std::string damping_cards(const Description& d);
-/// Adds the `*ORIENTATION` of a section; returns the parameter that names it, or nothing.
+/// `*ORIENTATION` with its lines.
 [[nodiscard]] std::string orientation_cards(const std::string& name,
                                             const material::Orientation& axes);
+/// Adds the `*ORIENTATION` of a section; returns the parameter that names it, or nothing.
 [[nodiscard]] std::string write_orientation(const Section& section, std::size_t number,
                                             Leaves& leaves, std::string& out);
 template <int Dim>
