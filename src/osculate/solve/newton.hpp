@@ -276,6 +276,39 @@ Searched turn_back(S& system, const typename S::State& committed, const Eigen::V
   return searched;
 }
 
+/// A correction of the trial, and from where it began.
+struct Correction {
+  const Eigen::VectorXd &du, &residual;  ///< residual before it
+  double time;
+  double energy;  ///< |du . residual|
+  bool first;     ///< of the increment
+  bool resisted;
+};
+
+/// Moves the trial along a correction, by a line search where the residual is smooth, and evaluates
+/// it there with its tangent. `known`: what is converged needs no tangent, and is not evaluated
+/// twice.
+template <System S>
+Searched move_along(S& system, const typename S::State& committed, const Correction& by, bool whole,
+                    const Judge& judge, NewtonResult<typename S::Trial>& result, bool& known) {
+  const Evaluation& e = result.evaluation;
+  const bool search = judge.options.line_search == LineSearch::automatic && !whole &&
+                      e.branch_residual.size() == 0 && !e.saddle;
+  const bool weak = result.precision.condition > 0;
+  const bool doubtful = !by.first || result.extrapolated || by.resisted || weak;
+  std::optional<typename S::Trial> start;
+  if (search && !doubtful && !e.carried) start = result.trial;
+  Searched searched;
+  if (search && doubtful)
+    searched =
+        line_search(system, committed, result, by.du, by.residual, by.time, by.resisted, weak);
+  else
+    result.trial = system.apply(result.trial, by.du, by.time, 1.0);
+  known = searched.evaluated && !by.resisted && meets(judge, by.du, by.energy, result);
+  if (!known) system.evaluate(committed, result.trial, by.time, true, result.evaluation);
+  return turn_back(system, committed, by.du, by.residual, by.time, start, result, searched);
+}
+
 /// How many iterations there may be at the last one of `most`: one more where the solver of that
 /// one has told at its end that it was none, others where they gain.
 template <class Trial>
@@ -327,30 +360,14 @@ template <System S>
     const double energy_before = std::abs(du.dot(residual));
     if (i == 1 && !result.extrapolated) judge.first_energy = energy_before;
     result.first_energy = judge.first_energy;
-
-    detail::Searched searched;
-    const bool search = options.line_search == LineSearch::automatic;
-    const bool smooth = !branched && !result.evaluation.saddle;
-    const bool weak = result.precision.condition > 0;
     const bool whole = judge.creeps() || peeling.turned();
-    std::optional<typename S::Trial> start;
-    if (i == 1 && search && smooth && !whole && !resistance.on() && !weak && !result.extrapolated &&
-        !result.evaluation.carried)
-      start = result.trial;
-    if (search && smooth && !whole && (i > 1 || result.extrapolated || resistance.on() || weak))
-      searched =
-          detail::line_search(system, committed, result, du, residual, time, resistance.on(), weak);
-    else
-      result.trial = system.apply(result.trial, du, time, 1.0);
-    // What is converged needs no tangent, and is not evaluated twice.
-    const bool known =
-        searched.evaluated && !resistance.on() && detail::meets(judge, du, energy_before, result);
-    if (!known) system.evaluate(committed, result.trial, time, true, result.evaluation);
-    searched = detail::turn_back(system, committed, du, residual, time, start, result, searched);
-    const double step = searched.step;
+    bool known = false;
+    const detail::Correction correction{du, residual, time, energy_before, i == 1, resistance.on()};
+    const detail::Searched searched =
+        detail::move_along(system, committed, correction, whole, judge, result, known);
     if (result.total.size() == 0) result.total.setZero(du.size());
-    result.total += step * du;
-    const bool last = detail::conclude(judge, du, step, energy_before, result, former);
+    result.total += searched.step * du;
+    const bool last = detail::conclude(judge, du, searched.step, energy_before, result, former);
     const bool ended = last && detail::is_sound(solver, result);
     if (known && !ended) system.evaluate(committed, result.trial, time, true, result.evaluation);
     if (peeling.turns(system, committed, time, ended, result))
