@@ -234,6 +234,9 @@ class Program(unittest.TestCase):
             self.skipTest("the verification cases were not built")
         folder = self.path(os.path.join("share", "osculate", "verification", name))
         os.makedirs(self.path("bin"), exist_ok=True)
+        libraries = os.path.join(os.path.dirname(PROGRAM), os.pardir, "lib")  # of a build tree
+        if os.path.isdir(libraries) and not os.path.exists(self.path("lib")):
+            os.symlink(os.path.abspath(libraries), self.path("lib"))
         os.makedirs(folder)
         copy = self.path(os.path.join("bin", "osculate-verify"))
         shutil.copy(program, copy)

@@ -35,7 +35,7 @@ void choose_linear_solver(Linear asked, const FactorLimits& limits, BasicBuilt<D
           fmt::format("multigrid, as factors of the tangent would take about {} of {}",
                       core::memory_text(needed), core::memory_text(limits.memory));
     else if (2 * entries > limits.entries ||
-             (2 * entries > limits.of_unknown * unknowns && !keeps_volume(built.model)))
+             (triangles * entries > limits.of_unknown * unknowns && !keeps_volume(built.model)))
       built.linear_note =
           fmt::format("multigrid, as factors of the tangent would have about {:.2g} entries",
                       triangles * entries);

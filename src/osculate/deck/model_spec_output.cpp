@@ -161,9 +161,10 @@ BoundKeys<S> solver_keys() {
            choice(
                "How the linear systems of the iterations are solved.",
                {word("auto", Linear::automatic,
-                     "direct; multigrid where factors would have more than 1000 entries for each "
-                     "unknown (compact bodies of more than 15 000 unknowns, that are not nearly "
-                     "incompressible) or 3e8 in all, or would take more than the memory of the "
+                     "direct; multigrid where factors would have more than 900 entries for each "
+                     "unknown (compact bodies of more than 13 000 unknowns with friction, of some "
+                     "60 000 without, that are not nearly incompressible) or 3e8 in all, or would "
+                     "take more than the memory of the "
                      "machine"),
                 word("direct", Linear::direct, "by factors (MUMPS)"),
                 word("multigrid", Linear::multigrid,

@@ -48,7 +48,9 @@ class ToInpDecks : public ::testing::Test {
     }
     return "no error";
   }
-  std::string path_ = ::testing::TempDir() + "osculate_given.inp";
+  // Tests of a case run beside each other.
+  std::string path_ = ::testing::TempDir() + "osculate_given_" +
+                      ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".inp";
 };
 
 TEST_F(ToInpDecks, ElementsAreThoseOfTheDeck) {
