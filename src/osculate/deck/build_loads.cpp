@@ -120,8 +120,11 @@ std::vector<std::pair<Dof, double>> total_force_unit(const BuildContext<Dim>& c,
       return body_force_unit(c, load, direction, what);
     return force_unit(c, load, static_cast<Component>(direction));
   };
+  // Weights, or components of a unit vector for each node.
+  const bool of_nodes = set.cells.empty() || set.dimension < Dim - 1;
   double sum = 0;
-  for (const auto& entry : unit_without({})) sum += entry.second;
+  for (const auto& entry : unit_without({}))
+    sum += of_nodes ? entry.second * entry.second : entry.second;
   std::vector<std::pair<Dof, double>> unit = unit_without(gone);
   for (auto& entry : unit) entry.second /= sum;
   return unit;

@@ -88,6 +88,15 @@ model::BasicRigidBody<Dim> rigid_body(BuildContext<Dim>& c, const Rigid& rigid, 
   model::BasicRigidBody<Dim> body;
   body.name = rigid.name.value;
   body.small = rigid.kinematics && rigid.kinematics->value == Kinematics::small;
+  const auto& sections = c.description.sections;
+  const auto finite = std::ranges::find_if(
+      sections, [](const Section& s) { return s.kinematics.value == Kinematics::finite; });
+  if (body.small && finite != sections.end())
+    throw core::InputError(
+        rigid.kinematics->mark,
+        fmt::format("a rigid body of small rotations strains what turns with it: section '{}' has "
+                    "`kinematics: finite`",
+                    finite->on.value));
   if (c.model().mesh.find_set(body.name))
     throw core::InputError(
         rigid.name.mark,

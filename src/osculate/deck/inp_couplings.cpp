@@ -91,7 +91,13 @@ void put_coupling(const InpModel& m, const Card& card, SourceNode& root) {
                       {SetKind::surface, SetKind::node_surface}),
                line));
   put(entry, "rigid", inp_text(reference_body(m, card), line));
-  if (kind.keyword == "DISTRIBUTING") return;
+  if (kind.keyword == "DISTRIBUTING") {
+    if (!option_of(card, "ORIENTATION").empty())
+      io::inp::fail(m.deck, card,
+                    "ORIENTATION is not supported with *DISTRIBUTING, where it turns the forces at "
+                    "the reference node: give these along x, y and z");
+    return;
+  }
   const std::array<bool, 6> coupled = coupled_directions(m, kind);
   SourceNode of = inp_list(line);
   for (int k = 1; k <= inp_dimension(m); ++k)

@@ -34,6 +34,10 @@ const std::string& path_of_deck(const Description& d) {
   return d.mesh.files[0].path;
 }
 
+bool same_axes(const material::Orientation& a, const material::Orientation& b) {
+  return a.kind == b.kind && a.a == b.a && a.b == b.b && a.about == b.about && a.angle == b.angle;
+}
+
 bool is_of_mesh(const Card& card) {
   if (card.keyword == "ELEMENT") return io::inp::discrete_nodes(card) == 0;
   return std::ranges::any_of(
@@ -154,7 +158,7 @@ std::string GivenMesh::sections(const std::vector<std::string>& axes) const {
     }
     for (const std::size_t s : own)
       if (d_.sections[s].material.value != material || axes[s].empty() != axes[own[0]].empty() ||
-          d_.sections[s].orientation.value.a != d_.sections[own[0]].orientation.value.a)
+          !same_axes(d_.sections[s].orientation.value, d_.sections[own[0]].orientation.value))
         refuse(s, "has another material or other axes than the rest of its section in the deck");
     out += head_of_card(card, material) + axes[own[0]] + "\n" + text_of_lines(deck_, card);
   }

@@ -173,6 +173,15 @@ class LoadWriter {
   /// The forces of a step and those in total, each with as many as it has nodes: as they are given.
   const std::vector<Load>& node_forces(const Step& step) {
     std::vector<Load>& all = kept_.emplace_back(step.forces);
+    const auto require_one_kind = [&](const Load& load, bool in_total) {
+      if (in_total_.try_emplace(load.on.value, in_total).first->second != in_total)
+        throw core::InputError(
+            load.mark,
+            "`forces` and `total_force` on the same set are not written: *CLOAD has one");
+    };
+    for (const Load& load : step.forces) require_one_kind(load, false);
+    for (const Load& total : step.total_force)
+      if (is_of_nodes(total)) require_one_kind(total, true);
     for (const Load& total : step.total_force)
       if (is_of_nodes(total))
         all.push_back(over(total, static_cast<double>(mesh_.set(total.on).nodes.size())));
@@ -356,8 +365,9 @@ class LoadWriter {
   int ramps_ = 0;
   bool at_once_ = false, was_at_once_ = false, search_ = false, fresh_swing_ = true;
   std::set<std::string> written_;
-  std::map<std::string, Name> named_;  ///< sets of the model file by their names in the deck
-  std::list<std::vector<Load>> kept_;  ///< loads that no step has itself
+  std::map<std::string, Name> named_;     ///< sets of the model file by their names in the deck
+  std::map<std::string, bool> in_total_;  ///< forces on nodes of a set, in all steps
+  std::list<std::vector<Load>> kept_;     ///< loads that no step has itself
   std::map<std::string, Vec3> gravity_;
   Standing forces_, pressures_, tractions_, spread_, temperatures_;
 };

@@ -8,6 +8,18 @@
 
 namespace osculate::deck {
 
+/// In a deck the reference of a body is the place of its node.
+template <int Dim>
+void InpMesh<Dim>::require_place(const Rigid& rigid, const Vec3& at) const {
+  for (const Name& one : rigid.reference_node) {
+    const mesh::Set* const set = m_.mesh.find_set(one.value);
+    if (!set || set->nodes.size() != 1) continue;
+    const Vec3& place = m_.mesh.nodes[static_cast<std::size_t>(set->nodes[0])];
+    if ((place - at).norm() > 1e-9 * (place.norm() + at.norm()))
+      throw core::InputError(one.mark, "the `reference` of the body is not the place of its node");
+  }
+}
+
 /// Nodes of the mesh where there are some, else new ones.
 template <int Dim>
 void InpMesh<Dim>::take_control(const Rigid& rigid, std::int64_t& last) {
@@ -32,10 +44,12 @@ void InpMesh<Dim>::take_control(const Rigid& rigid, std::int64_t& last) {
     const mesh::Set& own = set(shape->set);
     const bool itself = rigid.reference_node.empty() && own.nodes.size() == 1 &&
                         m_.mesh.nodes[static_cast<std::size_t>(own.nodes[0])] == at;
+    require_place(rigid, at);
     const std::int64_t one = itself ? node(own.nodes[0]) : known(rigid.reference_node);
     controls_[name] = {one, one};
     return;
   }
+  require_place(rigid, at);
   const std::int64_t reference = known(rigid.reference_node);
   controls_[name] = {reference, known(rigid.rotation_node)};
 }

@@ -141,6 +141,7 @@ class InpMesh {
   [[nodiscard]] static std::string plain_text(const std::string& name);
   void take_controls();
   void take_control(const Rigid& rigid, std::int64_t& last);
+  void require_place(const Rigid& rigid, const Vec3& at) const;
   /// What the deck whose mesh this is calls it.
   [[nodiscard]] std::optional<std::string> given_name(io::inp::SetKind kind, const Name& on) const;
   [[nodiscard]] std::vector<Side<Dim>> facets(const Name& on) const;

@@ -274,9 +274,12 @@ bool Iterative::Impl::iterate(Eigen::VectorXd& rhs) {
 SolveStatus Iterative::Impl::solve(Eigen::VectorXd& rhs) {
   if (!by_multigrid) return direct.solve(rhs);
   if (rhs.size() != bodies->matrix().rows() || !rhs.allFinite()) return SolveStatus::failed;
+  const Eigen::VectorXd given = rhs;
   if (iterate(rhs)) return SolveStatus::ok;
+  rhs = given;
   const SparseMatrix k = stored(bodies->matrix());  // both triangles
   if (!fresh && build(compressed(k, Symmetry::unsymmetric)) && iterate(rhs)) return SolveStatus::ok;
+  rhs = given;
   ++work.given_up;
   refused = true;
   const FactorReport report = factor_directly(k);

@@ -256,18 +256,18 @@ bool is_sound(la::LinearSolver& solver, NewtonResult<Trial>& result) {
 
 /// A first correction that knows of no contact which was open may drive bodies far through each
 /// other. They go back to where they have just met, where the tangent knows the contact. `start`:
-/// where the correction began, of bodies that loads alone drive.
+/// where the correction began, of bodies that loads alone drive, with so many points `touching`.
 ///
 /// Decision   docs/decisions/062-attempts-that-diverge.md
 template <System S>
 Searched turn_back(S& system, const typename S::State& committed, const Eigen::VectorXd& du,
                    const Eigen::VectorXd& residual, double time,
-                   const std::optional<typename S::Trial>& start,
+                   const std::optional<typename S::Trial>& start, int touching,
                    NewtonResult<typename S::Trial>& result, Searched searched) {
   constexpr double most_of_it = 0.5, far_more = 10;
   const Evaluation& e = result.evaluation;
-  if (!start || !e.ok || e.branch_residual.size() > 0 || !e.residual.allFinite() ||
-      relative_residual(result) <= most_of_it ||
+  if (!start || !e.ok || e.counts.touching() <= touching || e.branch_residual.size() > 0 ||
+      !e.residual.allFinite() || relative_residual(result) <= most_of_it ||
       du.dot(e.residual) <= far_more * std::abs(du.dot(residual)))
     return searched;
   result.trial = *start;
@@ -298,6 +298,7 @@ Searched move_along(S& system, const typename S::State& committed, const Correct
   const bool doubtful = !by.first || result.extrapolated || by.resisted || weak;
   std::optional<typename S::Trial> start;
   if (search && !doubtful && !e.carried) start = result.trial;
+  const int touching = e.counts.touching();
   Searched searched;
   if (search && doubtful)
     searched =
@@ -306,7 +307,8 @@ Searched move_along(S& system, const typename S::State& committed, const Correct
     result.trial = system.apply(result.trial, by.du, by.time, 1.0);
   known = searched.evaluated && !by.resisted && meets(judge, by.du, by.energy, result);
   if (!known) system.evaluate(committed, result.trial, by.time, true, result.evaluation);
-  return turn_back(system, committed, by.du, by.residual, by.time, start, result, searched);
+  return turn_back(system, committed, by.du, by.residual, by.time, start, touching, result,
+                   searched);
 }
 
 /// How many iterations there may be at the last one of `most`: one more where the solver of that
