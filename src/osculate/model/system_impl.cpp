@@ -219,7 +219,7 @@ void BasicSystem<Dim>::Impl::assemble_terms(const State& committed, const Trial&
                                             solve::Evaluation& out) {
   const State& now = trial.state;
   out.ok = true;
-  out.apart = out.carried = false;
+  out.apart = false;
   out.message.clear();
   last.clear(dofs.dofs(), constraints.count());
   if (with_tangent) {
@@ -239,7 +239,6 @@ void BasicSystem<Dim>::Impl::assemble_terms(const State& committed, const Trial&
   const bool predict = pass == Pass::predict;
   if (predict) {
     inc = prescribed_increment(now, x, fraction);
-    out.carried = !inc.isZero(0);
     last.carried =
         inc.head(Dim * static_cast<Eigen::Index>(x.size())).template lpNorm<Eigen::Infinity>();
   }

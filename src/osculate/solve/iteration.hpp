@@ -42,8 +42,7 @@ struct Evaluation {
       0;               ///< the part of it that inertia has: the position is none the worse
   bool loaded = true;  ///< forces act from outside
   StateCounts counts;
-  bool carried = false;  ///< of a prediction: prescribed displacements move with it
-  bool saddle = false;   ///< some unknowns are multipliers: the residual has no potential
+  bool saddle = false;  ///< some unknowns are multipliers: the residual has no potential
 };
 
 enum class LineSearch { automatic, off };

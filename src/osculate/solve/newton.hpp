@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "osculate/solve/line_search.hpp"
 #include "osculate/solve/peeling.hpp"
@@ -254,28 +253,6 @@ bool is_sound(la::LinearSolver& solver, NewtonResult<Trial>& result) {
   return false;
 }
 
-/// A first correction that knows of no contact which was open may drive bodies far through each
-/// other. They go back to where they have just met, where the tangent knows the contact. `start`:
-/// where the correction began, of bodies that loads alone drive, with so many points `touching`.
-///
-/// Decision   docs/decisions/062-attempts-that-diverge.md
-template <System S>
-Searched turn_back(S& system, const typename S::State& committed, const Eigen::VectorXd& du,
-                   const Eigen::VectorXd& residual, double time,
-                   const std::optional<typename S::Trial>& start, int touching,
-                   NewtonResult<typename S::Trial>& result, Searched searched) {
-  constexpr double most_of_it = 0.5, far_more = 10;
-  const Evaluation& e = result.evaluation;
-  if (!start || !e.ok || e.counts.touching() <= touching || e.branch_residual.size() > 0 ||
-      !e.residual.allFinite() || relative_residual(result) <= most_of_it ||
-      du.dot(e.residual) <= far_more * std::abs(du.dot(residual)))
-    return searched;
-  result.trial = *start;
-  searched = line_search(system, committed, result, du, residual, time, true);
-  system.evaluate(committed, result.trial, time, true, result.evaluation);
-  return searched;
-}
-
 /// A correction of the trial, and from where it began.
 struct Correction {
   const Eigen::VectorXd &du, &residual;  ///< residual before it
@@ -296,9 +273,6 @@ Searched move_along(S& system, const typename S::State& committed, const Correct
                       e.branch_residual.size() == 0 && !e.saddle;
   const bool weak = result.precision.condition > 0;
   const bool doubtful = !by.first || result.extrapolated || by.resisted || weak;
-  std::optional<typename S::Trial> start;
-  if (search && !doubtful && !e.carried) start = result.trial;
-  const int touching = e.counts.touching();
   Searched searched;
   if (search && doubtful)
     searched =
@@ -307,8 +281,7 @@ Searched move_along(S& system, const typename S::State& committed, const Correct
     result.trial = system.apply(result.trial, by.du, by.time, 1.0);
   known = searched.evaluated && !by.resisted && meets(judge, by.du, by.energy, result);
   if (!known) system.evaluate(committed, result.trial, by.time, true, result.evaluation);
-  return turn_back(system, committed, by.du, by.residual, by.time, start, touching, result,
-                   searched);
+  return searched;
 }
 
 /// How many iterations there may be at the last one of `most`: one more where the solver of that

@@ -298,20 +298,6 @@ TEST(Newton, GoesOnWhileTheResidualHalvesEveryTenIterations) {
   EXPECT_EQ(creeps.iterations.size(), 25U);
 }
 
-/// A mass on a spring that a load drives against a stop, 40 times as far as it may go.
-TEST(Newton, AFirstCorrectionThatGoesFarTurnsBackToWhereItMeets) {
-  constexpr double stop = 1e6;
-  ToySystem system =
-      scalar_system([](double x, double t) { return x + stop * std::max(0.0, x - 1) - 40 * t; },
-                    [](double x) { return x > 1 ? 1 + stop : 1; });
-  const auto result = solve_from(system, 0, {.residual = 1e-9});
-  ASSERT_EQ(result.outcome, Outcome::converged) << result.reason;
-  EXPECT_NEAR(result.trial.x[0], (40 + stop) / (1 + stop), 1e-14);
-  EXPECT_GT(result.iterations.front().step, 1.0 / 40);
-  EXPECT_LT(result.iterations.front().step, 1.0 / 40 + 1e-3);
-  EXPECT_EQ(result.iterations.size(), 2U);
-}
-
 /// Tells once, when it is asked, that its last matrix was not sound.
 class Doubtful final : public la::LinearSolver {
  public:
