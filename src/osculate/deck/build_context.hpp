@@ -82,6 +82,8 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] std::vector<Side<Dim>> oriented_facets(const BuildContext<Dim>& context,
                                                      const Name& on);
+/// What a word for a formulation says; `automatic` says nothing, and is as `full`.
+[[nodiscard]] solid::Formulation formulation_named(Formulation word);
 /// The element formulation of a section with its material.
 template <int Dim>
 [[nodiscard]] solid::Section<Dim> make_solid_section(const Section& section,

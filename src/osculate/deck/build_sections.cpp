@@ -44,7 +44,13 @@ Formulation best_formulation(const Section& s, const Material& material) {
 solid::Formulation formulation_of(const Section& s, const Material& material) {
   const Formulation given = s.formulation.value;
   if (s.element.value == SectionElement::solid_shell) return solid::Formulation::solid_shell;
-  switch (given == Formulation::automatic ? best_formulation(s, material) : given) {
+  return formulation_named(given == Formulation::automatic ? best_formulation(s, material) : given);
+}
+
+}  // namespace
+
+solid::Formulation formulation_named(Formulation word) {
+  switch (word) {
     case Formulation::bbar:
       return solid::Formulation::bbar;
     case Formulation::enhanced:
@@ -57,8 +63,6 @@ solid::Formulation formulation_of(const Section& s, const Material& material) {
       return solid::Formulation::full;
   }
 }
-
-}  // namespace
 
 template <int Dim>
 solid::Section<Dim> make_solid_section(const Section& s, const Material& material) {

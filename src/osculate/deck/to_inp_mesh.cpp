@@ -3,6 +3,7 @@
 #include <set>
 
 #include "osculate/core/text.hpp"
+#include "osculate/deck/build_context.hpp"
 #include "osculate/deck/to_inp_parts.hpp"
 #include "osculate/io/inp/cards.hpp"
 #include "osculate/model/bulk.hpp"
@@ -63,22 +64,6 @@ std::string_view ending(solid::Formulation formulation) {
       return "R";
     default:
       return "";
-  }
-}
-
-/// Of a section that a deck says.
-solid::Formulation formulation_named(Formulation word) {
-  switch (word) {
-    case Formulation::bbar:
-      return solid::Formulation::bbar;
-    case Formulation::enhanced:
-      return solid::Formulation::enhanced;
-    case Formulation::reduced:
-      return solid::Formulation::reduced;
-    case Formulation::beam:
-      return solid::Formulation::beam;
-    default:
-      return solid::Formulation::full;
   }
 }
 

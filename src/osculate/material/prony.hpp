@@ -27,28 +27,36 @@ struct Relaxation {
   [[nodiscard]] std::optional<core::Fault> fault() const;
 };
 
+/// The keys of the two series of a law.
+template <class T>
+constexpr std::array<core::Param<T>, 2> series_params() {
+  return {{{.key = "shear",
+            .unit = "1, time",
+            .doc = "Terms [g, tau] of the series by which the shear modulus relaxes: "
+                   "G(t) = G (1 - sum g (1 - exp(-t / tau))).",
+            .slot = &T::shear,
+            .required = false,
+            .example = "[[0.3, 1], [0.2, 10]]",
+            .otherwise = "it does not relax",
+            .points = &Relaxation::shear_points,
+            .timed = true},
+           {.key = "bulk",
+            .unit = "1, time",
+            .doc = "Terms [k, tau] of the series by which the bulk modulus relaxes, likewise.",
+            .slot = &T::bulk,
+            .required = false,
+            .example = "[[0.1, 10]]",
+            .otherwise = "it does not relax",
+            .points = &Relaxation::bulk_points,
+            .timed = true}}};
+}
+
 constexpr auto Relaxation::params() {
-  using P = core::Param<Relaxation>;
-  return std::array<P, 2>{
-      {{.key = "shear",
-        .unit = "1, time",
-        .doc = "Terms [g, tau] of the series by which the shear modulus relaxes, and at any strain "
-               "the stress that changes the shape: G(t) = G (1 - sum g (1 - exp(-t / tau))).",
-        .slot = &Relaxation::shear,
-        .required = false,
-        .example = "[[0.3, 1], [0.2, 10]]",
-        .otherwise = "it does not relax",
-        .points = &Relaxation::shear_points,
-        .timed = true},
-       {.key = "bulk",
-        .unit = "1, time",
-        .doc = "Terms [k, tau] of the series by which the bulk modulus relaxes, likewise.",
-        .slot = &Relaxation::bulk,
-        .required = false,
-        .example = "[[0.1, 10]]",
-        .otherwise = "it does not relax",
-        .points = &Relaxation::bulk_points,
-        .timed = true}}};
+  auto series = series_params<Relaxation>();
+  series[0].doc =
+      "Terms [g, tau] of the series by which the shear modulus relaxes, and at any strain "
+      "the stress that changes the shape: G(t) = G (1 - sum g (1 - exp(-t / tau))).";
+  return series;
 }
 
 /// (1 - exp(-x)) / x : what is left, in the mean, of what comes evenly.

@@ -45,28 +45,8 @@ constexpr std::array<core::Param<Viscoelastic>, 5> Viscoelastic::params() {
   auto [young, poisson, density] = isotropic_params<Viscoelastic>();
   young.doc = "Young's modulus at once, before anything has relaxed.";
   poisson.doc = "Poisson's ratio at once, before anything has relaxed.";
-  return {young,
-          poisson,
-          density,
-          {.key = "shear",
-           .unit = "1, time",
-           .doc = "Terms [g, tau] of the series by which the shear modulus relaxes: "
-                  "G(t) = G (1 - sum g (1 - exp(-t / tau))).",
-           .slot = &Viscoelastic::shear,
-           .required = false,
-           .example = "[[0.3, 1], [0.2, 10]]",
-           .otherwise = "it does not relax",
-           .points = &Relaxation::shear_points,
-           .timed = true},
-          {.key = "bulk",
-           .unit = "1, time",
-           .doc = "Terms [k, tau] of the series by which the bulk modulus relaxes, likewise.",
-           .slot = &Viscoelastic::bulk,
-           .required = false,
-           .example = "[[0.1, 10]]",
-           .otherwise = "it does not relax",
-           .points = &Relaxation::bulk_points,
-           .timed = true}};
+  const auto [shear, bulk] = series_params<Viscoelastic>();
+  return {young, poisson, density, shear, bulk};
 }
 
 [[nodiscard]] Response3 respond(const Viscoelastic& law, const Strain3& strain, Memory memory);

@@ -27,10 +27,10 @@ std::string counts_column(const char* gap, const solve::StateCounts& counts, Poi
   return text.empty() ? text : gap + text;
 }
 
-/// Empty where every iteration had its own.
+/// Empty where every iteration had its own, of all unknowns or of contact alone.
 std::string factorisations_text(const std::vector<solve::IterationRecord>& iterations) {
   const solve::Factorisations count = solve::count_factorisations(iterations);
-  if (count.whole == std::ssize(iterations)) return {};
+  if (std::max(count.whole, count.of_contact) == std::ssize(iterations)) return {};
   const std::string of_contact =
       count.of_contact > 0 ? fmt::format(", {} of contact alone", count.of_contact) : "";
   return fmt::format("  ({} factorisations{})", count.whole, of_contact);

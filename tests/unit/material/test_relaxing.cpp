@@ -13,6 +13,7 @@
 #include "derivative_check.hpp"
 #include "osculate/material/energy.hpp"
 #include "osculate/material/law.hpp"
+#include "point_in_time.hpp"
 #include "sample_laws.hpp"
 
 namespace osculate::material {
@@ -40,21 +41,9 @@ const std::vector<Law>& at_once() {
 }
 Relaxation series_of(const Law& law) { return relaxes_alike(law) ? alike : both; }
 
-struct Sample {
-  Law law;
-  State now{};
-  explicit Sample(const Law& base) : law(*relaxing(base, series_of(base))) {}
+struct Sample : testing::PointInTime<std::tuple_size_v<State>> {
+  explicit Sample(const Law& base) : PointInTime{*relaxing(base, series_of(base))} {}
 
-  Response3 at(const Strain3& e, double duration, State& next) const {
-    return response(law, e, {now.data(), next.data(), now.size(), duration});
-  }
-  Stress3 commit(const Strain3& e, double duration) {
-    State next{};
-    const Response3 r = at(e, duration, next);
-    EXPECT_TRUE(r.ok);
-    now = next;
-    return r.stress;
-  }
   [[nodiscard]] double stored(const Strain3& e) const {
     return stored_energy(law, e, {now.data()});
   }

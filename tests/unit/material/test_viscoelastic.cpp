@@ -10,6 +10,7 @@
 #include "derivative_check.hpp"
 #include "osculate/material/energy.hpp"
 #include "osculate/material/law.hpp"
+#include "point_in_time.hpp"
 
 namespace osculate::material {
 namespace {
@@ -21,20 +22,8 @@ const Strain3 first{{0.012, -0.006, 0.004, 0.010, -0.005, 0.008}};
 const Strain3 second{{-0.004, 0.009, 0.002, -0.012, 0.006, 0.003}};
 const Strain3 along{{0.5, -0.3, 0.2, 0.7, -0.4, 0.6}};
 
-struct Point {
-  Law law = polymer;
-  State now{};
-
-  Response3 at(const Strain3& e, double duration, State& next) const {
-    return response(law, e, {now.data(), next.data(), now.size(), duration});
-  }
-  Stress3 commit(const Strain3& e, double duration) {
-    State next{};
-    const Response3 r = at(e, duration, next);
-    EXPECT_TRUE(r.ok);
-    now = next;
-    return r.stress;
-  }
+struct Point : testing::PointInTime<std::tuple_size_v<State>> {
+  explicit Point(const Law& of = polymer) : PointInTime{of} {}
 };
 
 /// Hooke's law with shares of the shear and the bulk modulus.
