@@ -224,6 +224,16 @@ ByRow by_row(std::size_t rows, const Each& each) {
 void append_row(const SparseMatrix& from, std::size_t row, std::span<const Index> fresh,
                 SparseMatrix& to) {
   auto next = fresh.begin();
+  const auto copy = [&](auto& items, const auto& source) {
+    items.insert(items.end(), source.begin() + from.row_start[row],
+                 source.begin() + from.row_start[row + 1]);
+  };
+  if (fresh.empty()) {
+    copy(to.column, from.column);
+    copy(to.value, from.value);
+    to.row_start[row + 1] = static_cast<Index>(to.column.size());
+    return;
+  }
   for (Index e = from.row_start[row]; e < from.row_start[row + 1]; ++e) {
     for (; next != fresh.end() && *next < from.column[at(e)]; ++next) {
       to.column.push_back(*next);
@@ -261,7 +271,9 @@ void MatrixBuilder::grow() {
   for (std::size_t i = 0; i < rows; ++i) {
     fresh.clear();
     const auto row = static_cast<Index>(i);
-    for (Index e = matrix_.row_start[i]; e < matrix_.row_start[i + 1]; ++e)
+    const bool grows =
+        blocks.start[i] < blocks.start[i + 1] || single.start[i] < single.start[i + 1];
+    for (Index e = matrix_.row_start[i]; grows && e < matrix_.row_start[i + 1]; ++e)
       seen[at(matrix_.column[at(e)])] = row;
     const auto take = [&](Index column) {
       if (std::exchange(seen[at(column)], row) != row) fresh.push_back(column);
