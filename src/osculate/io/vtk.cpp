@@ -7,6 +7,7 @@
 #include <bit>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <stdexcept>
 
 #include "osculate/io/atomic_file.hpp"
@@ -16,37 +17,58 @@ namespace {
 
 constexpr std::size_t packet = std::size_t{1} << 18U;
 
-/// The appended part of the file and the header that refers to it.
-struct Document {
-  bool compress = false;
-  std::string header;
-  std::vector<std::string> arrays;
-  std::uint64_t offset = 0;
-};
-
 void append_u64(std::string& out, std::uint64_t value) {
   out.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-std::string packed(const char* data, std::size_t size) {
-  std::string sizes;
-  std::string body;
-  const std::size_t packets = (size + packet - 1) / packet;
-  append_u64(sizes, packets);
-  append_u64(sizes, packet);
-  append_u64(sizes, size % packet);
-  std::string buffer(compressBound(packet), '\0');
-  for (std::size_t i = 0; i < packets; ++i) {
-    const std::size_t length = std::min(packet, size - i * packet);
-    uLongf used = buffer.size();
-    if (compress2(reinterpret_cast<Bytef*>(buffer.data()), &used,
-                  reinterpret_cast<const Bytef*>(data + i * packet), length, Z_BEST_SPEED) != Z_OK)
-      throw std::bad_alloc();
-    append_u64(sizes, used);
-    body.append(buffer, 0, used);
+/// Packets of zlib with VTK's table of their sizes before them. The tables of the compressor are
+/// made once for all arrays of a file.
+class Packer {
+ public:
+  Packer() {
+    if (deflateInit(&stream_, Z_BEST_SPEED) != Z_OK) throw std::bad_alloc();
   }
-  return sizes + body;
-}
+  ~Packer() { deflateEnd(&stream_); }
+  Packer(const Packer&) = delete;
+  Packer& operator=(const Packer&) = delete;
+
+  [[nodiscard]] std::string packed(const char* data, std::size_t size) {
+    std::string sizes;
+    std::string body;
+    const std::size_t packets = (size + packet - 1) / packet;
+    append_u64(sizes, packets);
+    append_u64(sizes, packet);
+    append_u64(sizes, size % packet);
+    for (std::size_t i = 0; i < packets; ++i) {
+      const std::size_t before = body.size();
+      add(data + i * packet, std::min(packet, size - i * packet), body);
+      append_u64(sizes, body.size() - before);
+    }
+    return sizes + body;
+  }
+
+ private:
+  void add(const char* data, std::size_t length, std::string& body) {
+    const std::size_t before = body.size(), bound = compressBound(length);
+    body.resize(before + bound);
+    stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(data));
+    stream_.avail_in = static_cast<uInt>(length);
+    stream_.next_out = reinterpret_cast<Bytef*>(body.data() + before);
+    stream_.avail_out = static_cast<uInt>(bound);
+    if (deflateReset(&stream_) != Z_OK || deflate(&stream_, Z_FINISH) != Z_STREAM_END)
+      throw std::bad_alloc();
+    body.resize(before + bound - stream_.avail_out);
+  }
+  z_stream stream_{};
+};
+
+/// The appended part of the file and the header that refers to it.
+struct Document {
+  std::optional<Packer> packer;  ///< none: as they are
+  std::string header;
+  std::vector<std::string> arrays;
+  std::uint64_t offset = 0;
+};
 
 template <class T>
 void add_array(Document& doc, const char* type, const std::string& attributes,
@@ -54,8 +76,8 @@ void add_array(Document& doc, const char* type, const std::string& attributes,
   const char* const data = reinterpret_cast<const char*>(values.data());
   const std::size_t size = values.size_bytes();
   std::string array;
-  if (doc.compress) {
-    array = packed(data, size);
+  if (doc.packer) {
+    array = doc.packer->packed(data, size);
   } else {
     append_u64(array, size);
     if (size > 0) array.append(data, size);
@@ -164,7 +186,7 @@ void write_vtu(const std::string& path, const VtuData& data, bool compress) {
   static_assert(sizeof(Vec3) == 3 * sizeof(double));
   const std::size_t cells = cell_count(data.blocks);
   Document doc;
-  doc.compress = compress;
+  if (compress) doc.packer.emplace();
   doc.header = fmt::format(
       "<?xml version=\"1.0\"?>\n"
       "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"{}\" "
