@@ -112,35 +112,25 @@ py::array shown(std::span<const Entry> entries, py::handle owner) {
   return shown(entry_type(), {static_cast<py::ssize_t>(entries.size())}, entries.data(), owner);
 }
 
-py::dict constraints(const py::object& self) {
-  return std::visit(
-      [&](const auto& kept) {
-        const Constraints& c = kept->constraints();
-        py::dict out;
-        const auto numbers_of = [&](const std::vector<double>& values) {
-          return shown(py::dtype::of<double>(), {static_cast<py::ssize_t>(values.size())},
-                       values.data(), self);
-        };
-        out["value"] = numbers_of(c.value);
-        out["branch_value"] = numbers_of(c.branch_value);
-        out["rows"] = shown(std::span(c.rows), self);
-        out["columns"] = shown(std::span(c.columns), self);
-        out["own"] = shown(std::span(c.own), self);
-        return out;
-      },
-      self.cast<const AnyEvaluation&>().value);
-}
-
-/// What `get` takes of the evaluation that `self` is.
-template <class Get>
-auto from(const py::object& self, const Get& get) {
-  return std::visit([&](const auto& kept) { return get(*kept); },
-                    self.cast<const AnyEvaluation&>().value);
-}
-
 template <int Dim>
 constexpr int dimension(const Result<Dim>&) {
   return Dim;
+}
+
+template <int Dim>
+py::dict constraints(const Result<Dim>& result, const py::object& self) {
+  const Constraints& c = result.constraints();
+  const auto column = [&](const std::vector<double>& values) {
+    return shown(py::dtype::of<double>(), {static_cast<py::ssize_t>(values.size())}, values.data(),
+                 self);
+  };
+  py::dict out;
+  out["value"] = column(c.value);
+  out["branch_value"] = column(c.branch_value);
+  out["rows"] = shown(std::span(c.rows), self);
+  out["columns"] = shown(std::span(c.columns), self);
+  out["own"] = shown(std::span(c.own), self);
+  return out;
 }
 
 template <int Dim>
@@ -149,53 +139,81 @@ py::array points_of(const Result<Dim>& result, const py::object& self) {
                result.points().data(), self);
 }
 
-void add_evaluation(py::module_& m) {
-  py::class_<AnyEvaluation>(m, "Evaluation")
+/// What `get` takes of an evaluation and of the object that keeps it alive.
+template <class Get>
+auto member(const Get& get) {
+  return [get](const py::object& self) {
+    return std::visit([&](const auto& kept) { return get(*kept, self); },
+                      self.cast<const AnyEvaluation&>().value);
+  };
+}
+
+constexpr const char* points_text =
+    "Slave points, then edge-edge contacts: status (Status), feature (Feature) and facet of the "
+    "master (-1: no place found), edge, xi on the facet, gap (negative: penetration), "
+    "normal_traction (not positive in contact), shear_traction (its negative acts on the slave), "
+    "slip in this increment, foot, normal, weight (1 or the area), stored (energy per weight), "
+    "friction_work and damping_work (dissipated so far), outside_domain.";
+
+void add_arrays(py::class_<AnyEvaluation>& type) {
+  type.def_property_readonly("force", member([](const auto& r, const py::object& self) {
+                               return shown(r.force(), dimension(r), self);
+                             }),
+                             "To be ADDED to the internal forces, (n, dim).")
+      .def_property_readonly("branch_force", member([](const auto& r, const py::object& self) {
+                               return shown(r.branch_force(), dimension(r), self);
+                             }),
+                             "Forces of the states that the tangent belongs to: what a correction "
+                             "is computed from. `force` decides whether it was the last one.")
       .def_property_readonly(
-          "force",
-          [](const py::object& self) {
-            return from(self, [&](const auto& r) { return shown(r.force(), dimension(r), self); });
-          })
-      .def_property_readonly("branch_force",
-                             [](const py::object& self) {
-                               return from(self, [&](const auto& r) {
-                                 return shown(r.branch_force(), dimension(r), self);
-                               });
-                             })
+          "tangent",
+          member([](const auto& r, const py::object& self) { return shown(r.tangent(), self); }),
+          "Entries (row, column, value) of d branch_force / d coordinates; those "
+          "of one place are summed (`csr`). Row dim n + i is direction i of "
+          "node n.")
+      .def_property_readonly("points", member([](const auto& r, const py::object& self) {
+                               return points_of(r, self);
+                             }),
+                             points_text)
+      .def_property_readonly(
+          "constraints",
+          member([](const auto& r, const py::object& self) { return constraints(r, self); }),
+          "With unknown tractions: value, branch_value, and entries rows (d value / d coordinate), "
+          "columns (d force / d unknown), own (d value / d unknown).")
       .def_property_readonly("branched",
-                             [](const py::object& self) {
-                               return from(self, [](const auto& r) { return r.branched(); });
-                             })
-      .def_property_readonly("tangent",
-                             [](const py::object& self) {
-                               return from(self,
-                                           [&](const auto& r) { return shown(r.tangent(), self); });
-                             })
-      .def_property_readonly("points",
-                             [](const py::object& self) {
-                               return from(self, [&](const auto& r) { return points_of(r, self); });
-                             })
-      .def_property_readonly("constraints", constraints)
-      .def("next_active_set",
-           [](const py::object& self) {
-             return from(self, [](const auto& r) { return AnyActiveSet{r.next_active_set()}; });
-           })
+                             member([](const auto& r, const py::object&) { return r.branched(); }),
+                             "Whether some points were linearised in another state than the one "
+                             "their traction is of.");
+}
+
+void add_next(py::class_<AnyEvaluation>& type) {
+  type.def("next_active_set", member([](const auto& r, const py::object&) {
+             return AnyActiveSet{r.next_active_set()};
+           }),
+           "For the next iteration.")
       .def("multipliers",
-           [](const py::object& self) {
-             return from(self, [](const auto& r) { return AnyMultipliers{r.multipliers()}; });
-           })
-      .def("corrected_multipliers",
-           [](const py::object& self) {
-             return from(self,
-                         [](const auto& r) { return AnyMultipliers{r.corrected_multipliers()}; });
-           })
+           member([](const auto& r, const py::object&) { return AnyMultipliers{r.multipliers()}; }),
+           "Those that it was made with, as the states that were found take them: for the next "
+           "iteration, too.")
+      .def("corrected_multipliers", member([](const auto& r, const py::object&) {
+             return AnyMultipliers{r.corrected_multipliers()};
+           }),
+           "The tractions that a solution asks for (Uzawa).")
       .def("committed",
-           [](const py::object& self) {
-             return from(self, [](const auto& r) { return AnyHistory{r.committed()}; });
-           })
-      .def("committed_multipliers", [](const py::object& self) {
-        return from(self, [](const auto& r) { return AnyMultipliers{r.committed_multipliers()}; });
-      });
+           member([](const auto& r, const py::object&) { return AnyHistory{r.committed()}; }),
+           "What the next increment begins with.")
+      .def("committed_multipliers", member([](const auto& r, const py::object&) {
+             return AnyMultipliers{r.committed_multipliers()};
+           }),
+           "The multipliers that the next increment begins with.");
+}
+
+void add_evaluation(py::module_& m) {
+  py::class_<AnyEvaluation> type(m, "Evaluation",
+                                 "What an evaluation found. Its arrays show its memory, without a "
+                                 "copy, and cannot be written into.");
+  add_arrays(type);
+  add_next(type);
 }
 
 template <int Dim>
@@ -208,43 +226,47 @@ py::array values_of(const Multipliers<Dim>& m, py::handle owner) {
           owner};
 }
 
-void add_values(py::module_& m) {
-  py::class_<AnyHistory>(m, "History")
-      .def("__len__",
-           [](const AnyHistory& self) {
-             return std::visit([](const auto& h) { return h.size(); }, self.value);
-           })
-      .def("bytes", [](const AnyHistory& self) {
-        return std::visit([](const auto& h) { return bytes_of(h); }, self.value);
-      });
-  py::class_<AnyActiveSet>(m, "ActiveSet")
-      .def("__len__",
-           [](const AnyActiveSet& self) {
-             return std::visit([](const auto& a) { return a.size(); }, self.value);
-           })
+/// What `get` takes of a value of either dimension.
+template <class T, class Get>
+auto value(const Get& get) {
+  return [get](const T& self) { return std::visit(get, self.value); };
+}
+
+void add_states(py::module_& m) {
+  py::class_<AnyHistory>(m, "History",
+                         "What all contact points remember of the last converged increment. A "
+                         "value: it never changes.")
+      .def("__len__", value<AnyHistory>([](const auto& h) { return h.size(); }))
+      .def("bytes", value<AnyHistory>([](const auto& h) { return bytes_of(h); }),
+           "All of it, for a restart: Evaluator.history reads it.");
+  py::class_<AnyActiveSet>(m, "ActiveSet",
+                           "In which state every contact point is linearised: an iteration leaves "
+                           "that of the next one behind.")
+      .def("__len__", value<AnyActiveSet>([](const auto& a) { return a.size(); }))
       .def_property_readonly("predicts",
-                             [](const AnyActiveSet& self) {
-                               return std::visit([](const auto& a) { return a.predicts(); },
-                                                 self.value);
-                             })
-      .def("bytes", [](const AnyActiveSet& self) {
-        return std::visit([](const auto& a) { return bytes_of(a); }, self.value);
-      });
-  py::class_<AnyMultipliers>(m, "Multipliers")
-      .def_property_readonly("values",
-                             [](const py::object& self) {
-                               return std::visit(
-                                   [&](const auto& value) { return values_of(value, self); },
-                                   self.cast<const AnyMultipliers&>().value);
-                             })
+                             value<AnyActiveSet>([](const auto& a) { return a.predicts(); }),
+                             "Made by Evaluator.predicted.")
+      .def("bytes", value<AnyActiveSet>([](const auto& a) { return bytes_of(a); }),
+           "All of it, for a restart: Evaluator.active_set reads it.");
+}
+
+void add_multipliers(py::module_& m) {
+  py::class_<AnyMultipliers>(m, "Multipliers",
+                             "Tractions of all points that do not follow from their penetration.")
+      .def_property_readonly(
+          "values",
+          [](const py::object& self) {
+            return std::visit([&](const auto& numbers) { return values_of(numbers, self); },
+                              self.cast<const AnyMultipliers&>().value);
+          },
+          "(points, 1 + dim): N (not positive in contact) and the shear traction as a vector. The "
+          "memory itself: what is written there counts.")
       .def_property_readonly("stiffening",
-                             [](const AnyMultipliers& self) {
-                               return std::visit([](const auto& v) { return v.stiffening; },
-                                                 self.value);
-                             })
-      .def_property_readonly("violation", [](const AnyMultipliers& self) {
-        return std::visit([](const auto& v) { return v.violation; }, self.value);
-      });
+                             value<AnyMultipliers>([](const auto& v) { return v.stiffening; }),
+                             "Of all penalties of the contact.")
+      .def_property_readonly("violation",
+                             value<AnyMultipliers>([](const auto& v) { return v.violation; }),
+                             "Largest gap or elastic slip at the last correction [length].");
 }
 
 // ---- the evaluator ------------------------------------------------------------------------------
@@ -321,54 +343,68 @@ py::list slave_points(const AnyEvaluator& self) {
   });
 }
 
+/// What `get` takes of an evaluator of either dimension.
+template <class Get>
+auto of_evaluator(const Get& get) {
+  return [get](const AnyEvaluator& self) { return with(self, get); };
+}
+
 void add_restart(py::class_<AnyEvaluator>& type) {
-  type.def("history",
-           [](const AnyEvaluator& self, std::string_view data) {
-             return with(self,
-                         [&](const auto& e) { return AnyHistory{e.history(bytes_in(data))}; });
-           })
-      .def("active_set",
-           [](const AnyEvaluator& self, std::string_view data) {
-             return with(self,
-                         [&](const auto& e) { return AnyActiveSet{e.active_set(bytes_in(data))}; });
-           })
-      .def("multipliers",
-           [](const AnyEvaluator& self, std::string_view data) {
-             return with(self, [&](const auto& e) {
-               return AnyMultipliers{e.multipliers(bytes_in(data))};
-             });
-           })
-      .def("bytes", [](const AnyEvaluator& self, const AnyMultipliers& multipliers) {
-        return with(self, [&]<int Dim>(const Evaluator<Dim>& e) -> py::bytes {
-          const std::vector<std::byte> bytes = e.bytes(multipliers.of<Dim>());
-          return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-        });
-      });
+  type.def(
+          "history",
+          [](const AnyEvaluator& self, std::string_view data) {
+            return with(self, [&](const auto& e) { return AnyHistory{e.history(bytes_in(data))}; });
+          },
+          py::arg("data"), "From History.bytes: it goes on with the same bits.")
+      .def(
+          "active_set",
+          [](const AnyEvaluator& self, std::string_view data) {
+            return with(self,
+                        [&](const auto& e) { return AnyActiveSet{e.active_set(bytes_in(data))}; });
+          },
+          py::arg("data"), "From ActiveSet.bytes.")
+      .def(
+          "multipliers",
+          [](const AnyEvaluator& self, std::string_view data) {
+            return with(
+                self, [&](const auto& e) { return AnyMultipliers{e.multipliers(bytes_in(data))}; });
+          },
+          py::arg("data"), "From Evaluator.bytes.")
+      .def(
+          "bytes",
+          [](const AnyEvaluator& self, const AnyMultipliers& multipliers) {
+            return with(self, [&]<int Dim>(const Evaluator<Dim>& e) -> py::bytes {
+              const std::vector<std::byte> bytes = e.bytes(multipliers.of<Dim>());
+              return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+            });
+          },
+          py::arg("multipliers"), "Multipliers for a restart.");
 }
 
 void add_unknowns(py::class_<AnyEvaluator>& type) {
   type.def("initial_multipliers",
-           [](const AnyEvaluator& self) {
-             return with(self,
-                         [](const auto& e) { return AnyMultipliers{e.initial_multipliers()}; });
-           })
+           of_evaluator([](const auto& e) { return AnyMultipliers{e.initial_multipliers()}; }),
+           "Multipliers to start from: no traction.")
       .def_property_readonly("unknowns_per_point",
-                             [](const AnyEvaluator& self) {
-                               return with(self,
-                                           [](const auto& e) { return e.unknowns_per_point(); });
-                             })
-      .def("multipliers_of",
-           [](const AnyEvaluator& self, const Numbers& unknowns) {
-             return with(self, [&](const auto& e) {
-               return AnyMultipliers{
-                   e.multipliers_of({unknowns.data(), static_cast<std::size_t>(unknowns.size())})};
-             });
-           })
-      .def("unknowns_of", [](const AnyEvaluator& self, const AnyMultipliers& multipliers) {
-        return with(self, [&]<int Dim>(const Evaluator<Dim>& e) {
-          return array_of(e.unknowns_of(multipliers.of<Dim>()));
-        });
-      });
+                             of_evaluator([](const auto& e) { return e.unknowns_per_point(); }),
+                             "Of lagrange_multiplier: 1, with friction 1 + dim.")
+      .def(
+          "multipliers_of",
+          [](const AnyEvaluator& self, const Numbers& unknowns) {
+            return with(self, [&](const auto& e) {
+              return AnyMultipliers{
+                  e.multipliers_of({unknowns.data(), static_cast<std::size_t>(unknowns.size())})};
+            });
+          },
+          py::arg("unknowns"), "Multipliers from unknowns in the order of the constraints.")
+      .def(
+          "unknowns_of",
+          [](const AnyEvaluator& self, const AnyMultipliers& multipliers) {
+            return with(self, [&]<int Dim>(const Evaluator<Dim>& e) {
+              return array_of(e.unknowns_of(multipliers.of<Dim>()));
+            });
+          },
+          py::arg("multipliers"), "And back.");
 }
 
 void add_evaluator(py::module_& m) {
@@ -377,12 +413,14 @@ void add_evaluator(py::module_& m) {
         return dimension_of(reference) == 2 ? make<2>(reference, arguments)
                                             : make<3>(reference, arguments);
       }))
-      .def("initial_history",
-           [](const AnyEvaluator& self, const Numbers& x) {
-             return with(self, [&]<int Dim>(const Evaluator<Dim>& e) {
-               return AnyHistory{e.initial_history(coordinates_of<Dim>(x))};
-             });
-           })
+      .def(
+          "initial_history",
+          [](const AnyEvaluator& self, const Numbers& x) {
+            return with(self, [&]<int Dim>(const Evaluator<Dim>& e) {
+              return AnyHistory{e.initial_history(coordinates_of<Dim>(x))};
+            });
+          },
+          py::arg("coordinates"), "The state before the first increment, at these coordinates.")
       .def("predicted",
            [](const AnyEvaluator& self, const AnyHistory& committed, const Numbers& x,
               const std::string& guess) {
@@ -393,7 +431,9 @@ void add_evaluator(py::module_& m) {
            })
       .def("evaluate", evaluate)
       .def("derivative_check", derivative_check)
-      .def("slave_points", slave_points);
+      .def("slave_points", slave_points,
+           "[(nodes, shape, facet), ...] of the slave points in the order of Evaluation.points: "
+           "each is sum shape[k] x[nodes[k]]; facet -1: a node.");
   add_unknowns(type);
   add_restart(type);
 }
@@ -409,7 +449,8 @@ std::vector<Layer> layers_of(const std::vector<std::array<double, 4>>& rows) {
 }  // namespace
 
 void add_contact(py::module_& m) {
-  add_values(m);
+  add_states(m);
+  add_multipliers(m);
   add_evaluation(m);
   add_evaluator(m);
   m.def("automatic_penalties", [](const std::vector<std::array<double, 4>>& slave,

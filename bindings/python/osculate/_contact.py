@@ -162,6 +162,7 @@ class ClosestPoints:
 
     @property
     def dimension(self):
+        """2 or 3."""
         return self._prepared.dimension
 
     def find(self, points, mode="certified", threads=1):

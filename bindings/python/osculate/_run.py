@@ -2,8 +2,10 @@
 import csv
 import json
 import os
+import shutil
 import tempfile
 import threading
+import weakref
 
 import numpy as np
 
@@ -33,6 +35,7 @@ class Columns(dict):
 
     @property
     def units(self):
+        """{column: dimension} of the columns that are known."""
         known = {name: _UNITS.get(name.removesuffix(".imaginary").rsplit(".", 1)[-1]) for name in self}
         return {name: unit for name, unit in known.items() if unit}
 
@@ -79,6 +82,7 @@ class Increment:
 
     @property
     def has_fields(self):
+        """Whether fields were written."""
         return bool(self._files)
 
     @property
@@ -97,6 +101,14 @@ class Increment:
 
     def __repr__(self):
         return f"<Increment {self.increment} of {self.step!r}, time {self.time:g}>"
+
+
+class _Folder:
+    """A folder that is removed with the last result or increment that reads it."""
+
+    def __init__(self):
+        self.name = tempfile.mkdtemp(prefix="osculate-")
+        weakref.finalize(self, shutil.rmtree, self.name, ignore_errors=True)
 
 
 class Result:
@@ -244,7 +256,7 @@ def run(model, folder=None, *, mesh=None, base=None, parameters=None, until=None
     """
     keep = None
     if hasattr(model, "items") and folder is None:
-        keep = tempfile.TemporaryDirectory(prefix="osculate-")
+        keep = _Folder()
         folder = os.path.join(keep.name, "results")
     target = "" if folder is None else os.fspath(folder)
     path, content = _model(model, mesh, base, lambda: target.rstrip("/") + ".msh")
