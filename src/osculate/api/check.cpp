@@ -133,8 +133,10 @@ CheckReport check_built(const std::string& path, const deck::Description& descri
 
 }  // namespace
 
-CheckReport check(const std::string& path, std::span<const deck::Setting> settings) {
-  const deck::Description description = deck::read_model(path, settings);
+CheckReport check(const std::string& path, std::span<const deck::Setting> settings,
+                  const deck::SourceNode* document) {
+  const deck::Description description =
+      document ? deck::parse_model(*document, path, settings) : deck::read_model(path, settings);
   const deck::AnyBuilt any = deck::build_any(description, deck::load_mesh(description));
   return std::visit([&](const auto& built) { return check_built(path, description, built); }, any);
 }

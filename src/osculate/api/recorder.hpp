@@ -61,6 +61,7 @@ struct Recorder {
   result::JournalEntry entry{};  ///< of the increment that has just converged
   std::string write_error;       ///< why the run had to stop, if a file could not be written
   bool stopping = false;
+  bool unwanted = false;  ///< who watches wants no more
   Budget budget;
   double resumed = 0;       ///< share of the work that was done before this run
   int converged_count = 0;  ///< increments
@@ -192,8 +193,8 @@ struct Recorder {
       write_error = error.what();
     }
     seconds += seconds_since(start);
-    stopping =
-        !write_error.empty() || (options.interrupted && options.interrupted()) || budget.too_late();
+    stopping = !write_error.empty() || unwanted || (options.interrupted && options.interrupted()) ||
+               budget.too_late();
     return !stopping;
   }
 
@@ -243,9 +244,20 @@ struct Recorder {
 
   void record_increment(model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,
                         const model::Progress& p, const solve::IncrementRecord* record) {
+    const model::BasicReached<Dim> reached(system, built.model, state);
+    record_numbers(system, reached, p, record);
+    if (wants_fields(p)) record_fields(reached, p);
+    if (record && options.converged)
+      unwanted = !options.converged({step_name(p), p, static_cast<int>(record->iterations.size()),
+                                     column_names(built.history), entry.row,
+                                     [&] { return fields.data_sets(reached); }});
+  }
+
+  void record_numbers(model::BasicSystem<Dim>& system, const model::BasicReached<Dim>& reached,
+                      const model::Progress& p, const solve::IncrementRecord* record) {
+    const model::BasicState<Dim>& state = reached.state;
     entry = {};
     entry.progress = p;
-    const model::BasicReached<Dim> reached(system, built.model, state);
     for (const model::HistoryRequest& request : built.history)
       entry.row.push_back(
           request.imaginary ? 0 : model::history_value(system, built.model, state, request));
@@ -268,7 +280,9 @@ struct Recorder {
     entry.deepest = watch.deepest;
     history->row(row_of(p, entry.row));
     report_row(p, entry.row);
-    if (!wants_fields(p)) return;
+  }
+
+  void record_fields(const model::BasicReached<Dim>& reached, const model::Progress& p) {
     const std::size_t before = fields.written().size();
     fields.write(reached, p.time);
     entry.files.assign(fields.written().begin() + static_cast<std::ptrdiff_t>(before),

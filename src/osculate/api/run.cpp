@@ -213,7 +213,9 @@ RunOutcome run(const RunOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   const nlohmann::json owner = result::owner_json(options.model);
   tell_of_reading(options);
-  const deck::Description description = deck::read_model(options.model, options.settings);
+  const deck::Description description =
+      options.document ? deck::parse_model(*options.document, options.model, options.settings)
+                       : deck::read_model(options.model, options.settings);
   mesh::Mesh nodes_and_cells = deck::load_mesh(description);
   tell_of_building(options, nodes_and_cells);
   deck::AnyBuilt any = deck::build_any(description, std::move(nodes_and_cells));

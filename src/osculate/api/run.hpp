@@ -6,12 +6,27 @@
 #include <vector>
 
 #include "osculate/deck/parameters.hpp"
+#include "osculate/model/analysis.hpp"
+#include "osculate/result/data_set.hpp"
 
 namespace osculate::api {
 
+/// An increment that has just converged and been written, for who watches a run; while it is told.
+struct LiveIncrement {
+  std::string step;
+  model::Progress progress;
+  int iterations;
+  const std::vector<std::string>& columns;               ///< of the history
+  const std::vector<double>& row;                        ///< this increment's
+  std::function<std::vector<result::DataSet>()> fields;  ///< what field files would show
+};
+
 /// One analysis from a model file to a result folder.
 struct RunOptions {
-  std::string model;   ///< path of the model file
+  std::string model;  ///< path of the model file
+  /// What stands in place of the file's content: `model` is then its name in messages, and paths in
+  /// it are relative to that one's folder.
+  const deck::SourceNode* document = nullptr;
   std::string folder;  ///< result folder; empty: the model's stem + `.results`
   /// Files of CalculiX (result::AnswerFiles), without their endings; empty: in the folder, where
   /// the model asks for some.
@@ -25,6 +40,9 @@ struct RunOptions {
   std::function<bool()> interrupted;               ///< asked between increments; may be empty
   /// Asked between two iterations; true ends the run without the increment that is under way.
   std::function<bool()> abandoned{};
+  /// Told of each converged increment, but not of frequencies of harmonic steps; false ends the
+  /// run.
+  std::function<bool(const LiveIncrement&)> converged{};
   bool with_outlook = false;  ///< progress begins with the share that is done and the time left
   /// Without: these stand on a line of their own, so long after the last one at the earliest [s].
   double outlook_after = 10;
@@ -55,7 +73,8 @@ struct CheckReport {
   std::string text, json;
 };
 [[nodiscard]] CheckReport check(const std::string& model,
-                                std::span<const deck::Setting> settings = {});
+                                std::span<const deck::Setting> settings = {},
+                                const deck::SourceNode* document = nullptr);
 
 /// Writes FOLDER/report.html again from FOLDER/report.json.
 void rewrite_report(const std::string& folder);

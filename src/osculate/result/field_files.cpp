@@ -21,143 +21,6 @@
 namespace osculate::result {
 namespace {
 
-Vec3 in_space(const Vec2& v) { return {v.x(), v.y(), 0.0}; }
-Vec3 in_space(const Vec3& v) { return v; }
-
-template <int Rows>
-io::Field vector_field(const std::string& name, const std::vector<Vec<Rows>>& values) {
-  io::Field field{name, 3, {}, {}};
-  for (const Vec<Rows>& value : values) {
-    const Vec3 v = in_space(value);
-    field.values.insert(field.values.end(), {v.x(), v.y(), v.z()});
-  }
-  return field;
-}
-
-template <std::size_t N>
-io::Field tensor_field(const std::string& name, const std::vector<std::array<double, N>>& values) {
-  io::Field field{name, static_cast<int>(N), {}, {"XX", "YY", "ZZ", "XY", "YZ", "XZ"}};
-  field.component_names.resize(N);
-  for (const auto& v : values) field.values.insert(field.values.end(), v.begin(), v.end());
-  return field;
-}
-
-io::Field numbers_field(const mesh::Mesh& mesh, const std::vector<Index>& nodes) {
-  io::Field field = io::scalar_field("NodeNumber", {});
-  for (const Index node : nodes)
-    field.values.push_back(static_cast<double>(mesh::node_number(mesh, node)));
-  return field;
-}
-
-cell::CellType type_of(const pairing::Facet& facet) {
-  return facet.count == 2   ? cell::CellType::line2
-         : facet.count == 3 ? cell::CellType::line3
-                            : cell::CellType::line4;
-}
-cell::CellType type_of(const pairing::SurfaceFacet& facet) { return facet.type; }
-
-/// Slave facets as cells of their own points; single points where the slave has no facets.
-template <class Facets>
-std::vector<mesh::Block> slave_cells(const Facets& facets, const std::map<Index, Index>& local) {
-  std::map<cell::CellType, mesh::Block> blocks;
-  for (const auto& facet : facets) {
-    const cell::CellType type = type_of(facet);
-    mesh::Block& block = blocks.try_emplace(type, mesh::Block{type, {}}).first->second;
-    for (int k = 0; k < facet.count; ++k)
-      block.connectivity.push_back(local.at(facet.nodes[static_cast<std::size_t>(k)]));
-  }
-  std::vector<mesh::Block> list;
-  for (auto& entry : blocks) list.push_back(std::move(entry.second));
-  if (list.empty()) {
-    list.push_back({cell::CellType::point1, {}});
-    for (const auto& entry : local) list[0].connectivity.push_back(entry.second);
-  }
-  return list;
-}
-
-/// Edge-edge contacts as single points.
-void add_edge_contacts(const pairing::PairDefinition<3>& pair, const std::vector<Vec3>& reference,
-                       const std::vector<Vec3>& x,
-                       const std::vector<model::EdgeEdgeSite>& edge_contacts,
-                       std::vector<Vec3>& points, std::vector<Vec3>& u,
-                       std::vector<mesh::Block>& cells) {
-  if (edge_contacts.empty()) return;
-  mesh::Block block{cell::CellType::point1, {}};
-  for (const model::EdgeEdgeSite& site : edge_contacts) {
-    const pairing::SharpEdge& edge =
-        pairing::edges_of(pair)->slave[static_cast<std::size_t>(site.edge)];
-    block.connectivity.push_back(static_cast<Index>(points.size()));
-    points.push_back(pairing::edge_position(edge, site.xi, reference));
-    u.emplace_back(pairing::edge_position(edge, site.xi, x) - points.back());
-  }
-  cells.push_back(std::move(block));
-}
-
-template <int Dim>
-std::vector<io::Field> contact_columns(const model::BasicContactFields<Dim>& c) {
-  using io::scalar_field;
-  std::vector<io::Field> fields{vector_field("normal", c.normal), scalar_field("COPEN", c.copen),
-                                scalar_field("CPRESS", c.cpress),
-                                scalar_field("CSHEAR1", c.cshear)};
-  if (Dim == 3) fields.push_back(scalar_field("CSHEAR2", c.cshear2));
-  fields.push_back(scalar_field("CSLIP1", c.cslip));
-  if (Dim == 3) fields.push_back(scalar_field("CSLIP2", c.cslip2));
-  fields.push_back(scalar_field("CSTATUS", c.cstatus));
-  fields.push_back(scalar_field("CFEATURE", c.cfeature));
-  fields.push_back(scalar_field("CAREA", c.carea));
-  fields.push_back(scalar_field("CNFORCE", c.cnforce));
-  fields.push_back(scalar_field("CSFORCE", c.csforce));
-  return fields;
-}
-
-/// Rigid bodies as one data set.
-struct RigidGrid {
-  struct Cells {
-    mesh::Block block;
-    std::vector<std::size_t> body;  ///< of each cell
-  };
-  std::vector<Vec3> points, u;
-  std::map<cell::CellType, Cells> cells;
-
-  void add(cell::CellType type, std::size_t body, const std::vector<Index>& nodes) {
-    Cells& list = cells.try_emplace(type, Cells{{type, {}}, {}}).first->second;
-    list.block.connectivity.insert(list.block.connectivity.end(), nodes.begin(), nodes.end());
-    list.body.push_back(body);
-  }
-};
-
-void add_rigid(const RigidLines& lines, const model::Model&, const model::State& state,
-               std::size_t body, RigidGrid& grid) {
-  for (const RigidLines::Polyline& line : lines.of(state, body)) {
-    for (std::size_t i = 0; i < line.size(); ++i) {
-      const auto at = static_cast<Index>(grid.points.size());
-      grid.points.push_back(in_space(line[i]));
-      if (i > 0) grid.add(cell::CellType::line2, body, {at - 1, at});
-    }
-    if (line.size() == 1)
-      grid.add(cell::CellType::point1, body, {static_cast<Index>(grid.points.size()) - 1});
-  }
-}
-
-void add_rigid(const RigidFaces& faces, const model::Model3& m, const model::State3&,
-               std::size_t body, RigidGrid& grid) {
-  std::map<Index, Index> place;
-  for (const mesh::SurfaceFacet& facet : faces.facets(body)) {
-    std::vector<Index> nodes;
-    for (const Index node : facet.nodes()) {
-      const auto [at, fresh] = place.try_emplace(node, static_cast<Index>(grid.points.size()));
-      if (fresh) grid.points.push_back(m.reference[static_cast<std::size_t>(node)]);
-      nodes.push_back(at->second);
-    }
-    grid.add(facet.type, body, nodes);
-  }
-  for (const RigidFaces::Quad& quad : faces.quads(body)) {
-    const auto at = static_cast<Index>(grid.points.size());
-    grid.points.insert(grid.points.end(), quad.begin(), quad.end());
-    grid.add(cell::CellType::quad4, body, {at, at + 1, at + 2, at + 3});
-  }
-}
-
 /// A header line and one row a point: the values of all fields.
 std::string table(const std::vector<io::Field>& fields, std::size_t points) {
   std::string text, comma;
@@ -247,9 +110,7 @@ std::string FieldFiles<Dim>::listed(const std::string& name) {
 }
 
 template <int Dim>
-void FieldFiles<Dim>::write(const model::BasicReached<Dim>& reached, double time) {
-  const model::BasicSystem<Dim>& system = reached.system;
-  const model::BasicState<Dim>& state = reached.state;
+std::vector<io::Field> FieldFiles<Dim>::body_fields(const model::BasicReached<Dim>& reached) const {
   const model::BasicNodalFields<Dim>& f = reached.fields();
   std::vector<io::Field> fields{vector_field("U", f.displacement), vector_field("RF", f.reaction),
                                 tensor_field("S", f.stress), tensor_field("E", f.strain),
@@ -257,6 +118,27 @@ void FieldFiles<Dim>::write(const model::BasicReached<Dim>& reached, double time
   for (const auto& [name, values] : f.memory)
     fields.push_back(io::scalar_field(std::string(name), values));
   fields.push_back(node_numbers_);
+  return fields;
+}
+
+template <int Dim>
+std::vector<DataSet> FieldFiles<Dim>::data_sets(const model::BasicReached<Dim>& reached) const {
+  std::vector<DataSet> sets{
+      {"bodies", built_.model.mesh.nodes, bodies_.blocks, body_fields(reached), bodies_.fields}};
+  if (!built_.model.rigid.empty())
+    sets.push_back(rigid_set(built_.model, rigid_, reached.state, bodies_.deformable));
+  const auto& contact = reached.system.contact();
+  for (std::size_t p = 0; p < built_.model.pairs.size(); ++p)
+    if (touched_[p] || built_.model.pairs[p].group.empty() || touches(contact[p]))
+      sets.push_back(contact_set(reached.system, built_.model, reached.state, p));
+  return sets;
+}
+
+template <int Dim>
+void FieldFiles<Dim>::write(const model::BasicReached<Dim>& reached, double time) {
+  const model::BasicSystem<Dim>& system = reached.system;
+  const model::BasicState<Dim>& state = reached.state;
+  const std::vector<io::Field> fields = body_fields(reached);
   const std::string bodies = fmt::format("bodies_{:05d}.vtu", frame_);
   io::write_vtu(listed(bodies),
                 {built_.model.mesh.nodes, bodies_.blocks, fields, bodies_.fields, bodies_.names},
@@ -316,56 +198,22 @@ template <int Dim>
 void FieldFiles<Dim>::write_contact(const model::BasicSystem<Dim>& system,
                                     const model::BasicState<Dim>& state, std::size_t pair,
                                     const std::string& stem) {
-  const model::BasicModel<Dim>& m = built_.model;
-  const model::BasicContactFields<Dim> c = model::contact_fields(system, m, pair);
-  std::map<Index, Index> local;
-  std::vector<Vec3> points;
-  std::vector<Vec<Dim>> u;
-  for (const Index node : c.nodes) {
-    local.emplace(node, static_cast<Index>(points.size()));
-    points.push_back(in_space(m.reference[static_cast<std::size_t>(node)]));
-    u.push_back(state.u.template segment<Dim>(Dim * node));
-  }
-  std::vector<mesh::Block> cells =
-      slave_cells(m.pairs[pair].definition.slave.boundary.facets, local);
-  if constexpr (Dim == 3)
-    add_edge_contacts(m.pairs[pair].definition, m.reference, system.positions(state),
-                      c.edge_contacts, points, u, cells);
-  std::vector<io::Field> fields = contact_columns(c);
-  io::Field numbers = numbers_field(m.mesh, c.nodes);  // none of crossings
-  numbers.values.resize(points.size(), std::numeric_limits<double>::quiet_NaN());
-  fields.insert(fields.begin(), {vector_field("U", u), numbers});
-  io::write_vtu(listed(stem + ".vtu"), {points, cells, fields, {}}, compress_);
+  DataSet set = contact_set(system, built_.model, state, pair);
+  io::write_vtu(listed(stem + ".vtu"), {set.points, set.cells, set.point_fields, {}}, compress_);
   if (!tables_) return;
+  std::vector<io::Field>& fields = set.point_fields;
   std::swap(fields[0], fields[1]);
-  fields.insert(fields.begin() + 1, io::vector_field("place", points));
-  io::write_file(listed(stem + ".csv"), table(fields, points.size()));
+  fields.insert(fields.begin() + 1, io::vector_field("place", set.points));
+  io::write_file(listed(stem + ".csv"), table(fields, set.points.size()));
 }
 
-/// Rigid bodies in reference coordinates with their displacement.
 template <int Dim>
 void FieldFiles<Dim>::write_rigid(const model::BasicState<Dim>& state, const std::string& file) {
-  RigidGrid grid;
-  for (std::size_t b = 0; b < built_.model.rigid.size(); ++b) {
-    const std::size_t before = grid.points.size();
-    add_rigid(rigid_, built_.model, state, b, grid);
-    for (std::size_t i = before; i < grid.points.size(); ++i) {
-      const Vec<Dim> x = grid.points[i].template head<Dim>();
-      grid.u.push_back(in_space(Vec<Dim>(state.rigid[b].position(x) - x)));
-    }
-  }
-  io::Field body = io::scalar_field("Body", {});
-  std::vector<mesh::Block> blocks;
-  for (auto& [type, cells] : grid.cells) {
-    for (const std::size_t b : cells.body)
-      body.values.push_back(static_cast<double>(bodies_.deformable + b + 1));
-    blocks.push_back(std::move(cells.block));
-  }
-  const std::array fields{io::vector_field("U", grid.u)};
-  const std::array cell_fields{body};
-  io::write_vtu(listed(file),
-                {grid.points, blocks, fields, cell_fields, std::span(bodies_.names).first(1)},
-                compress_);
+  const DataSet set = rigid_set(built_.model, rigid_, state, bodies_.deformable);
+  io::write_vtu(
+      listed(file),
+      {set.points, set.cells, set.point_fields, set.cell_fields, std::span(bodies_.names).first(1)},
+      compress_);
 }
 
 template <int Dim>

@@ -7,6 +7,7 @@
 #include "osculate/deck/build.hpp"
 #include "osculate/io/vtk.hpp"
 #include "osculate/model/fields.hpp"
+#include "osculate/result/data_set.hpp"
 #include "osculate/result/result_folder.hpp"
 #include "osculate/result/rigid_pictures.hpp"
 
@@ -32,6 +33,8 @@ class FieldFiles {
  public:
   FieldFiles(std::string folder, const deck::BasicBuilt<Dim>& built, const deck::Output& output);
   void write(const model::BasicReached<Dim>& reached, double time);
+  /// What `write` writes.
+  [[nodiscard]] std::vector<DataSet> data_sets(const model::BasicReached<Dim>& reached) const;
   /// Parts of a swing at a frequency, which is its time: the real one, and behind it the imaginary
   /// one, whose fields end with `_imaginary`. `U_amplitude` is that of each component.
   void swings(const model::BasicReached<Dim>& reached, double frequency, bool imaginary);
@@ -56,6 +59,7 @@ class FieldFiles {
   void resume(std::vector<io::PvdEntry> written, std::vector<bool> touched);
 
  private:
+  [[nodiscard]] std::vector<io::Field> body_fields(const model::BasicReached<Dim>& reached) const;
   void write_contact(const model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,
                      std::size_t pair, const std::string& stem);
   void write_rigid(const model::BasicState<Dim>& state, const std::string& file);

@@ -1,0 +1,16 @@
+"""Osculate: contact mechanics with finite elements. docs/python.md is a tutorial.
+
+run, check, Result   analyses, as the program `osculate` has them
+study                an analysis over values of its parameters
+Evaluator            contact for a code of one's own; closest_points: of millions of points
+"""
+from ._contact import (ActiveSet, Closest, ClosestPoints, ClosestStatus, DerivativeCheck, Evaluation, Evaluator,
+                       Feature, History, Multipliers, Status, Surface, automatic_penalties, closest_points, csr)
+from ._core import (Arc, Circle, Cone, Cylinder, Line, NurbsCurve, NurbsSurface, Plane, Segment, Sphere, Torus)
+from ._core import version as __version__
+from ._data import DataSet, Parts
+from ._errors import AnalysisFailed, InputError, Interrupted, Refused
+from ._mesh import write_gmsh
+from ._run import Columns, Increment, Result, State, check, run
+from ._study import Table, study
+

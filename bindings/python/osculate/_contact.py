@@ -1,0 +1,186 @@
+"""Contact for codes of one's own: surfaces and coordinates in, forces, tangent and next state out."""
+import enum
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from . import _core
+from ._core import ActiveSet, Evaluation, History, Multipliers  # noqa: F401
+
+
+class Status(enum.IntEnum):
+    """What a contact point does."""
+
+    open, stick, slip = range(3)
+
+
+class Feature(enum.IntEnum):
+    """What a closest point lies on; in the plane a curve's interior is `face`, its vertices are `corner`."""
+
+    none, face, edge, corner = range(4)
+
+
+class ClosestStatus(enum.IntEnum):
+    """projected: one closest point; ambiguous: another place is as near; outside_domain: beyond the centre of
+    curvature; invalid: no numbers."""
+
+    projected, ambiguous, outside_domain, invalid = range(4)
+
+
+@dataclass
+class Surface:
+    """One side of a contact.
+
+    facets   [(type, nodes (m, k)), ...]: line2 ... line8 in the plane (the body is on the right of the way), tri3,
+             tri6, quad4, quad8, quad9 in space (counterclockwise from outside), in Gmsh's order
+    shapes   Circle, Plane, ... on a rigid body; in the plane also several curves one behind the other
+    closed   several curves: the first one begins where the last one ends
+    frame    with shapes: the nodes at the origin and the tips of the unit vectors of the frame they stand in
+    points   nodes of a slave without facets; they weigh 1 each
+    """
+
+    facets: list = field(default_factory=list)
+    shapes: list = field(default_factory=list)
+    closed: bool = False
+    frame: tuple = ()
+    points: tuple = ()
+
+
+@dataclass(frozen=True)
+class DerivativeCheck:
+    """How the error of a tangent falls with the step: order = log2 of the ratio of both errors, 2 for a derivative.
+
+    error is relative, at half the step; exact: both errors are rounding; same_states: false where a step has changed
+    the state of a point, so that no order is to be expected; passed: same_states and (exact or 1.75 < order < 2.25).
+    """
+
+    error: float
+    order: float
+    exact: bool
+    same_states: bool
+    passed: bool
+
+
+class Evaluator(_core.Evaluator):
+    """Contact of a slave with a master, for a code that has its own mesh and solver. It changes nothing: all that an
+    analysis remembers are values of the host.
+
+    An increment:
+        evaluate(x, history, predicted(history, x)) -> correction of x ->
+        evaluate(x, history, last.next_active_set()) -> correction ... -> history = last.committed()
+
+    reference      coordinates of all nodes, (n, 2) or (n, 3)
+    master, slave  Surface; without a slave the master touches itself
+    normal         {"penalty": eps_N} or another law of docs/laws.md with its numbers: {"exponential": {...}}
+    friction       {"coulomb": {"mu": 0.3, "penalty": eps_T}}, ...; damping: {"restitution": 0.5}, ...
+    sampling       nodes, gauss, lobatto or mortar, with sampling_points a direction and subdomains of a facet
+    enforcement    penalty, augmented_lagrange or lagrange_multiplier
+    weight         what tractions are multiplied by: node (1), reference_area or current_area
+    separation     allowed, no_separation, tied_normal or tied
+    tangent        None: the exact derivative; else the parts of the papers' one: ["main", "rotational", "curvature"]
+    The others are those of include/osculate/options.hpp. Errors: Refused.
+    """
+
+    def __init__(self, reference, *, master, slave=None, normal, friction=None, damping=None, factors=None,
+                 sampling="nodes", sampling_points=2, subdomains=1, enforcement="penalty", weight="reference_area",
+                 separation="allowed", tolerance=0.0, keep_gap=True, offset=0.0, overlap="acts", history="continuous",
+                 residual="surface", tangent=None, thickness=1.0, axisymmetric=False, smoothing="none",
+                 sharp_angle=math.pi / 6, edge_angle=None, reentrant_vertices=False, search_distance=None,
+                 depth=math.inf, part=1.0):
+        arguments = dict(locals())
+        for name in ("self", "reference", "__class__"):
+            arguments.pop(name, None)
+        super().__init__(reference, arguments)
+
+    def evaluate(self, coordinates, committed, active_set=None, multipliers=None, *, tangent=True, duration=0.0,
+                 relief=0.0, far=False):
+        """Forces, tangent and next states at these coordinates, (n, dim) or one number behind the other.
+
+        active_set    None: every point is taken as its traction says
+        duration      of the increment, for laws that ask for a speed
+        relief        overlap="ramped": share of the initial overlaps that does not count yet
+        far           with a search distance: report gaps of points far away, too
+        Arrays of doubles are read where they stand; those of the Evaluation show its memory.
+        """
+        return super().evaluate(coordinates, committed, active_set, multipliers, tangent, duration, relief, far)
+
+    def predicted(self, committed, coordinates, guess="as_before"):
+        """States for the first iteration of an increment; guess: as_before, sticking or sliding."""
+        return super().predicted(committed, coordinates, guess)
+
+    def derivative_check(self, coordinates, committed, step, active_set=None, multipliers=None, *, duration=0.0):
+        """Whether the tangent is the derivative of the forces: K d along a fixed random direction against central
+        differences with `step` and half of it."""
+        return DerivativeCheck(
+            **super().derivative_check(coordinates, committed, step, active_set, multipliers, duration))
+
+
+def csr(entries, size):
+    """A matrix of `size` rows from entries (row, column, value) of which those of one place are summed, in the order
+    in which they stand: data, indices, indptr as of `scipy.sparse.csr_matrix((data, indices, indptr))`."""
+    rows = entries["row"].astype(np.int64)
+    place = rows * size + entries["column"]
+    places, inverse = np.unique(place, return_inverse=True)
+    data = np.bincount(inverse, weights=entries["value"], minlength=len(places))
+    indptr = np.searchsorted(places, np.arange(size + 1, dtype=np.int64) * size)
+    return data, places % size, indptr
+
+
+@dataclass(frozen=True)
+class Closest:
+    """One row a point, in their order.
+
+    status     ClosestStatus
+    feature    Feature; facet: in the order given, -1 where invalid; xi: on the facet (n, 2), NaN where it has none
+    point      the foot points (n, dim); distance: negative inside
+    margin     how much farther the next place is, unique: whether there is one place only (both of "certified")
+    """
+
+    status: np.ndarray
+    feature: np.ndarray
+    facet: np.ndarray
+    xi: np.ndarray
+    point: np.ndarray
+    distance: np.ndarray
+    margin: np.ndarray
+    unique: np.ndarray
+
+
+class ClosestPoints:
+    """A surface (in the plane a curve) that is prepared once and asked many times, from several threads too.
+
+    surface       a shape (Circle, Torus, ...), or facets [(type, nodes), ...] as of Surface
+    coordinates   with facets: of all nodes, (n, dim)
+    """
+
+    def __init__(self, surface, coordinates=None):
+        if coordinates is None:
+            self._prepared = _core.ClosestPoints.of_shape(surface)
+        else:
+            self._prepared = _core.ClosestPoints.of_facets(list(surface), coordinates)
+
+    @property
+    def dimension(self):
+        """2 or 3."""
+        return self._prepared.dimension
+
+    def find(self, points, mode="certified", threads=1):
+        """The nearest places to `points` (n, dim), any values.
+
+        mode: "nearest" (proved: nothing is nearer), "certified" (the margin is found, too) or "fast" (Newton's method
+        from a good guess). Results have the same bits for any number of threads.
+        """
+        return Closest(**self._prepared.find(points, mode, threads))
+
+
+def closest_points(surface, points, *, coordinates=None, mode="certified", threads=1):
+    """ClosestPoints(surface, coordinates).find(points, mode, threads)."""
+    return ClosestPoints(surface, coordinates).find(points, mode, threads)
+
+
+def automatic_penalties(slave, master=()):
+    """Penalties per area (normal, shear) as stiff as the bodies need: eps_N = 10 / (h_s/E_s + h_m/E_m), eps_T the same
+    with G = E / (2 (1 + nu)). Rows (E, nu, height of the cells, area) of the pieces of both sides; none: rigid."""
+    return _core.automatic_penalties([tuple(map(float, row)) for row in slave],
+                                     [tuple(map(float, row)) for row in master])

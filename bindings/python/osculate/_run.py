@@ -1,0 +1,277 @@
+"""Analyses and their results."""
+import csv
+import json
+import os
+import shutil
+import tempfile
+import threading
+import weakref
+
+import numpy as np
+
+from . import _core
+from ._data import DataSet, Parts, read_collection, read_vtu
+from ._errors import AnalysisFailed, InputError, Interrupted
+from ._mesh import write_gmsh
+
+_QUANTITIES = {
+    "length": ("ux", "uy", "uz", "max_penetration", "slip"),
+    "force": ("rfx", "rfy", "rfz", "force_x", "force_y", "force_z", "normal_force", "shear_force"),
+    "moment": ("rmx", "rmy", "rmz"), "radian": ("rx", "ry", "rz"), "length/time": ("vx", "vy", "vz"),
+    "radian/time": ("wx", "wy", "wz"), "pressure": ("max_pressure",), "area": ("area",),
+    "energy": ("friction_work", "kinetic", "strain", "contact", "external", "friction", "damping", "numerical",
+               "residual", "plastic"),
+    "time": ("elapsed", "time_step", "time"), "1": ("stick", "slipping", "closed", "open", "fraction", "step", "increment"),
+}
+_UNITS = {quantity: unit for unit, quantities in _QUANTITIES.items() for quantity in quantities}
+
+
+class Columns(dict):
+    """{column: array}, one value for the initial state and each converged increment.
+
+    `units` has what is known of each column: `force`, `length`, ... in the consistent units of the model; "1": a
+    number. Columns that the model names itself are not in it.
+    """
+
+    @property
+    def units(self):
+        """{column: dimension} of the columns that are known."""
+        known = {name: _UNITS.get(name.removesuffix(".imaginary").rsplit(".", 1)[-1]) for name in self}
+        return {name: unit for name, unit in known.items() if unit}
+
+
+class State:
+    """An increment that has just converged, as `on_increment` of `run` gets it.
+
+    step, increment    name of the step, number of the increment within it (from 1)
+    time, fraction     of the analysis (docs/results.md), and the part of the step that has passed
+    iterations         that it took
+    history            {column: value} of this increment
+    """
+
+    def __init__(self, step, increment, time, fraction, iterations, history, sets):
+        self.step, self.increment, self.time, self.fraction = step, increment, time, fraction
+        self.iterations, self.history = iterations, history
+        self._sets, self._parts = sets, None
+
+    @property
+    def parts(self):
+        """Bodies, rigid bodies and contact pairs as data sets; computed when it is first asked for, which has to
+        be while `on_increment` runs. The arrays may be kept."""
+        if self._parts is None:
+            self._parts = Parts([DataSet(*arrays) for arrays in self._sets()])
+        return self._parts
+
+    def __getitem__(self, field):
+        """`state["U"]`, `state["CPRESS"]`, or of a part: `state["floor", "U"]`."""
+        return self.parts.field(field) if isinstance(field, str) else self.parts.field(field[1], field[0])
+
+
+class Increment:
+    """The initial state or a converged increment of a result.
+
+    step, increment, time   name of the step, number within it (0: the initial state), time of the analysis
+    record                  what summary.json has of it (iterations, residual, ...); {} of the initial state
+    has_fields              whether fields were written (`output: {fields: ...}` of the model)
+    """
+
+    def __init__(self, result, step, increment, time, record, files):
+        self.step, self.increment, self.time, self.record = step, increment, time, record
+        self._folder, self._keep = result.folder, result._keep
+        self._files, self._parts = files, None
+
+    @property
+    def has_fields(self):
+        """Whether fields were written."""
+        return bool(self._files)
+
+    @property
+    def parts(self):
+        """The data sets, read from the files when they are first asked for."""
+        if not self._files:
+            raise KeyError(f"no fields were written at time {self.time:g}: see `output: fields` of the model")
+        if self._parts is None:
+            self._parts = Parts([read_vtu(os.path.join(self._folder, file), part)
+                                 for part, file in self._files.items()])
+        return self._parts
+
+    def __getitem__(self, field):
+        """`increment["U"]`, `increment["CPRESS"]`, or of a part: `increment["floor", "U"]`."""
+        return self.parts.field(field) if isinstance(field, str) else self.parts.field(field[1], field[0])
+
+    def __repr__(self):
+        return f"<Increment {self.increment} of {self.step!r}, time {self.time:g}>"
+
+
+class _Folder:
+    """A folder that is removed with the last result or increment that reads it."""
+
+    def __init__(self):
+        self.name = tempfile.mkdtemp(prefix="osculate-")
+        weakref.finalize(self, shutil.rmtree, self.name, ignore_errors=True)
+
+
+class Result:
+    """What is in a result folder, of `run` or of the program.
+
+    folder      its path
+    summary     summary.json as a dictionary (docs/results.md)
+    status      "done" or "stopped"
+    message     why it stopped, in plain words
+    history     history.csv by columns (Columns)
+    increments  the initial state and all converged increments, as many as rows of the history
+    """
+
+    def __init__(self, folder, *, _keep=None):
+        self.folder = os.fspath(folder)
+        self._keep = _keep  # a folder that goes with its last user
+        try:
+            with open(os.path.join(self.folder, "summary.json"), encoding="utf-8") as file:
+                self.summary = json.load(file)
+        except FileNotFoundError:
+            raise InputError(f"{self.folder}: there is no summary.json: no results of Osculate") from None
+        self.status, self.message = self.summary["status"], self.summary.get("message", "")
+        self._rows()
+
+    def _rows(self):
+        path = os.path.join(self.folder, "history.csv")
+        rows = []
+        if os.path.exists(path):
+            with open(path, newline="", encoding="utf-8") as file:
+                rows = list(csv.reader(file))
+        names, rows = (rows[0], rows[1:]) if rows else (["step", "increment", "time"], [])
+        table = np.array(rows, dtype=float).reshape(len(rows), len(names))
+        self.history = Columns(zip(names, np.ascontiguousarray(table.T)))
+        for name in ("step", "increment"):
+            self.history[name] = self.history[name].astype(int)
+        self._increments()
+
+    def _increments(self):
+        collection = os.path.join(self.folder, "results.pvd")
+        frames = read_collection(collection) if os.path.exists(collection) else []
+        steps = self.summary.get("steps", [])
+        seen, self.increments = {}, []
+        for step, number, time in zip(*(self.history[name] for name in ("step", "increment", "time"))):
+            of_step = steps[step - 1] if step <= len(steps) else {}
+            record = {}
+            if number > 0:
+                at = seen[step] = seen.get(step, -1) + 1
+                records = of_step.get("increments", [])
+                record = records[at] if at < len(records) else {}
+            files = frames.pop(0)[1] if frames and frames[0][0] == time else {}
+            self.increments.append(
+                Increment(self, of_step.get("name", ""), int(number), float(time), record, files))
+
+    def fields(self, step=None):
+        """The data sets at the last increment with fields, of all or of a step by its name."""
+        having = [i for i in self.increments if i.has_fields and (step is None or i.step == step)]
+        if not having:
+            steps = ", ".join(dict.fromkeys(i.step for i in self.increments if i.has_fields))
+            raise KeyError(f"there are no fields of step {step!r}; there are some of: {steps or 'none'}")
+        return having[-1].parts
+
+    def plot_history(self, *columns, x="time", file=None, ax=None):
+        """Draws columns of the history over another one with matplotlib; returns the axes.
+
+        `file`: saved there. `ax`: drawn into these axes.
+        """
+        import matplotlib.pyplot as plt
+
+        for name in (*columns, x):
+            if name not in self.history:
+                raise KeyError(f"the history has no column {name!r}; it has {', '.join(self.history)}")
+        if ax is None:
+            ax = plt.subplots()[1]
+        units = self.history.units
+        for name in columns:
+            ax.plot(self.history[x], self.history[name], label=name)
+        ax.set_xlabel(f"{x} [{units[x]}]" if x in units else x)
+        of_columns = {units.get(name) for name in columns}
+        if len(of_columns) == 1 and None not in of_columns:
+            ax.set_ylabel(f"[{of_columns.pop()}]")
+        ax.legend()
+        if file is not None:
+            ax.figure.savefig(file)
+        return ax
+
+    def __repr__(self):
+        return f"<Result {self.status}, {max(len(self.increments) - 1, 0)} increments, in {self.folder!r}>"
+
+
+def _settings(parameters):
+    """As `--set` has them."""
+    return [(name, repr(float(value)) if isinstance(value, float) else str(value))
+            for name, value in (parameters or {}).items()]
+
+
+def _model(model, mesh, base, mesh_file):
+    """Its path, and its content where it is a dictionary; an own mesh is written to a file."""
+    if not hasattr(model, "items"):
+        if mesh is not None or base is not None:
+            raise TypeError("mesh and base go with a model that is a dictionary")
+        return os.fspath(model), None
+    content = dict(model)
+    if mesh is not None:
+        if "mesh" in content:
+            raise TypeError("the mesh is given twice: as an argument, and by the key `mesh` of the model")
+        path = mesh_file()
+        write_gmsh(mesh, path)
+        content["mesh"] = os.path.abspath(path)
+    return os.path.join(os.fspath(base) if base is not None else "", "model"), content
+
+
+def check(model, *, mesh=None, base=None, parameters=None):
+    """What `osculate check` says of a model, as a dictionary; its key `text` has it for a reader.
+
+    Arguments as of `run`. Errors: InputError.
+    """
+    with tempfile.TemporaryDirectory(prefix="osculate-") as temporary:
+        path, content = _model(model, mesh, base, lambda: os.path.join(temporary, "mesh.msh"))
+        text, facts = _core.check(path, content, _settings(parameters))
+    return {**json.loads(facts), "text": text}
+
+
+def run(model, folder=None, *, mesh=None, base=None, parameters=None, until=None, threads=1, restart=False,
+        max_iterations=0, max_minutes=0.0, on_increment=None, say=None):
+    """Runs an analysis and returns its Result.
+
+    model         path of a model file or of an Abaqus or CalculiX deck, or a dictionary with the keys of a model file
+    folder        for the results; default: that of the program for a path, for a dictionary one that is removed with
+                  the Result
+    mesh          with a dictionary, in place of its key `mesh`: a mesh of meshio or a dictionary of arrays
+                  (`write_gmsh`). With a folder it is kept beside it as FOLDER.msh
+    base          with a dictionary: the folder that its paths are relative to; default: the present one
+    parameters    {name: value} in place of those of the model
+    until         last step to run
+    threads       for assembly
+    restart       go on after the last checkpoint in the folder
+    max_iterations, max_minutes   the run stops there; 0: no limit
+    on_increment  called with a State after each converged increment (not of harmonic steps); False stops the run
+    say           called with each line that the program would print
+
+    Other Python threads go on meanwhile. Ctrl-C ends the run after the iteration that is under way.
+
+    Errors: InputError, as the program says it; OSError for a folder that cannot be written to; AnalysisFailed and
+    Interrupted have the converged increments as `result`; what a callback raises, after the run has ended.
+    """
+    keep = None
+    if hasattr(model, "items") and folder is None:
+        keep = _Folder()
+        folder = os.path.join(keep.name, "results")
+    target = "" if folder is None else os.fspath(folder)
+    path, content = _model(model, mesh, base, lambda: target.rstrip("/") + ".msh")
+    watch = None if on_increment is None else lambda *state: on_increment(State(*state))
+    main = threading.current_thread() is threading.main_thread()
+    done, message, target, summary, refused, error = _core.run(
+        path, content, target, _settings(parameters), until or "", threads, restart, max_iterations,
+        float(max_minutes), watch, say, main)
+    if error is not None and not isinstance(error, KeyboardInterrupt):
+        raise error
+    if json.loads(summary)["status"] == "checked":
+        raise InputError(message)
+    result = Result(target, _keep=keep)
+    if error is not None:
+        raise Interrupted(message, result) from error
+    if not done and not refused:
+        raise AnalysisFailed(message, result)
+    return result

@@ -1,0 +1,33 @@
+#pragma once
+#include <span>
+#include <string>
+#include <vector>
+
+#include "convert.hpp"
+#include "osculate/surface.hpp"
+
+namespace osculate::python {
+
+/// Facets from pairs of a type's word and an array of nodes, one row a facet.
+///
+/// Errors     Refused for a word that is no type, and for rows of another length
+[[nodiscard]] std::vector<Facets> facets_of(const py::object& pairs);
+
+/// One of the shapes of shapes.cpp.
+///
+/// Errors     Refused for another object, or a shape of the other dimension
+template <int Dim>
+[[nodiscard]] Shape<Dim> shape_of(py::handle shape);
+
+/// From an object with the attributes facets, shapes, closed, frame and points (osculate.Surface).
+template <int Dim>
+[[nodiscard]] Surface<Dim> surface_of(const py::object& surface);
+
+/// Coordinates of points, one behind the other. Errors: Refused unless there are Dim a point.
+template <int Dim>
+[[nodiscard]] std::span<const double> coordinates_of(const Numbers& numbers);
+
+/// 2 or 3, from an array with one row a point. Errors: Refused for other shapes.
+[[nodiscard]] int dimension_of(const Numbers& points);
+
+}  // namespace osculate::python

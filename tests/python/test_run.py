@@ -1,0 +1,340 @@
+"""Analyses from Python: the same answers, messages and files as the program. PROGRAM: its path."""
+import importlib.util
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import unittest
+
+import numpy as np
+import osculate
+from models import YAML, block
+
+PROGRAM = os.environ["PROGRAM"]
+
+
+def files_of(folder):
+    """What two runs have in common, byte by byte."""
+    names = sorted(name for name in os.listdir(folder) if name.endswith((".vtu", ".csv", ".pvd")))
+    return {name: pathlib.Path(folder, name).read_bytes() for name in names}
+
+
+class Runs(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        self.path("model.yaml").write_text(YAML)
+
+    def path(self, name):
+        return pathlib.Path(self.folder, name)
+
+    def program(self, *arguments):
+        return subprocess.run([PROGRAM, *map(str, arguments)], cwd=self.folder, capture_output=True, text=True)
+
+    def test_a_file_a_dictionary_and_the_program_give_the_same_bytes(self):
+        self.program("run", "model.yaml", "-o", "program")
+        osculate.run(self.path("model.yaml"), self.path("file"))
+        osculate.run(block(), self.path("dictionary"))
+        expected = files_of(self.path("program"))
+        self.assertGreater(len(expected), 10)
+        self.assertEqual(files_of(self.path("file")), expected)
+        self.assertEqual(files_of(self.path("dictionary")), expected)
+
+    def test_parameters_are_set_as_by_the_program(self):
+        self.program("run", "model.yaml", "-o", "program", "--set", "side=0.25")
+        osculate.run(block(), self.path("dictionary"), parameters={"side": 0.25})
+        self.assertEqual(files_of(self.path("dictionary")), files_of(self.path("program")))
+        self.assertNotEqual(osculate.run(block()).history["c.shear_force"][-1],
+                            osculate.Result(self.path("program")).history["c.shear_force"][-1])
+
+    def test_statics(self):
+        result = osculate.run(block())
+        self.assertEqual(result.status, "done")
+        np.testing.assert_allclose(result.history["c.normal_force"], [0, 4, 8, 12, 16], atol=1e-8)
+        np.testing.assert_allclose(result.history["time"], [0, 0.5, 1, 1.5, 2])
+        self.assertEqual(result.history.units["c.normal_force"], "force")
+        floor = result.increments[2].parts["c"]
+        np.testing.assert_allclose(np.sum(floor["CPRESS"] * floor["CAREA"]), 8, rtol=1e-9)
+        np.testing.assert_allclose(result.fields("weight").field("U"), result.increments[2]["U"])
+        self.assertEqual(result.summary["steps"][1]["name"], "more")
+        self.assertEqual(result.increments[3].record["time"], 1.5)
+        self.assertEqual(result.increments[3].step, "more")
+
+    def test_messages_are_those_of_the_program(self):
+        self.path("wrong.yaml").write_text(YAML.replace("penalty: 1.0e6},", "penalt: 1.0e6},"))
+        said = self.program("run", "wrong.yaml")
+        self.assertEqual(said.returncode, 2)
+        with self.assertRaises(osculate.InputError) as raised:
+            osculate.run(self.path("wrong.yaml"), self.path("results"))
+        self.assertEqual(f"error: {raised.exception}\n".replace(self.folder + "/", ""), said.stderr)
+        self.assertEqual((raised.exception.line, raised.exception.key), (8, "contact[0].normal"))
+        contact = [{**block()["contact"][0], "normal": {"penalt": 1.0e6}}]
+        with self.assertRaises(osculate.InputError) as raised:
+            osculate.run(block(contact=contact))
+        said = said.stderr.removeprefix("error: wrong.yaml:8: ")
+        self.assertEqual(f"{raised.exception}\n".removeprefix("model: "), said)
+
+    def test_texts_stay_texts_and_numbers_numbers(self):
+        for value, part in (("1.0e4", "quoted text"), (True, "got the text 'true'"), (None, "nothing"),
+                            (np.nan, "finite"), ([1], "a list"), (object(), "got object")):
+            with self.subTest(value=value), self.assertRaisesRegex(osculate.InputError, part):
+                osculate.run(block(materials={"s": {"linear_elastic": {"E": value, "nu": 0.3}}}))
+        numpy = {"s": {"linear_elastic": {"E": np.float64(1e4), "nu": np.float32(0.25)}}}
+        self.assertEqual(osculate.check(block(materials=numpy))["unknowns"], 93)
+        loop = block()
+        loop["mesh"] = loop
+        with self.assertRaisesRegex(osculate.InputError, "nested more than 48 deep"):
+            osculate.run(loop)
+
+    def test_an_analysis_that_fails_keeps_what_converged(self):
+        pulled = [{"name": "rest", "increments": 1, "body_force": [{"on": "block", "fy": -1}]},
+                  {"name": "lift", "increments": 2, "body_force": [{"on": "block", "fy": 1}]}]
+        with self.assertRaises(osculate.AnalysisFailed) as raised:
+            osculate.run(block(steps=pulled))
+        result = raised.exception.result
+        self.assertEqual(result.status, "stopped")
+        self.assertEqual(str(raised.exception), result.message)
+        self.assertIn("diagnosis", result.summary)
+        self.assertGreater(result.history["c.normal_force"][1], 0)
+
+    def test_two_runs_in_one_process_give_the_same_bytes(self):
+        for name in ("first", "second"):
+            osculate.run(block(), self.path(name))
+        self.assertEqual(files_of(self.path("first")), files_of(self.path("second")))
+
+    def test_runs_in_threads_give_the_same_bytes(self):
+        names = [f"thread{i}" for i in range(4)]
+        threads = [threading.Thread(target=osculate.run, args=(block(), self.path(n))) for n in names]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        osculate.run(block(), self.path("alone"))
+        for name in names:
+            self.assertEqual(files_of(self.path(name)), files_of(self.path("alone")))
+
+    def test_restart_goes_on(self):
+        osculate.run(block(), self.path("whole"))
+        osculate.run(block(), self.path("parts"), until="weight")
+        osculate.run(block(), self.path("parts"), restart=True)
+        self.assertEqual(files_of(self.path("parts")), files_of(self.path("whole")))
+
+    def test_nothing_is_printed(self):
+        code = "import osculate, sys; osculate.run(sys.argv[1], sys.argv[2])"
+        said = subprocess.run([sys.executable, "-c", code, self.path("model.yaml"), self.path("r")],
+                              capture_output=True, text=True, check=True)
+        self.assertEqual((said.stdout, said.stderr), ("", ""))
+
+    def test_a_folder_that_cannot_be_written_to(self):
+        self.path("file").write_text("")
+        with self.assertRaises((OSError, osculate.InputError)):
+            osculate.run(block(), self.path("file") / "below")
+
+    def test_check_says_what_the_program_says(self):
+        def without_memory(text):
+            return [line for line in text.splitlines() if not line.startswith("Memory")]
+
+        facts = osculate.check(self.path("model.yaml"))
+        said = self.program("check", "model.yaml").stdout
+        self.assertEqual(without_memory(facts["text"]), without_memory(said))
+
+
+class Watching(unittest.TestCase):
+    def test_increments_are_told_with_the_fields_of_the_files(self):
+        told = []
+
+        def watch(state):
+            told.append((state.step, state.increment, state.time, state.iterations, state["U"], state["CPRESS"],
+                         state.parts, state.history["c.normal_force"]))
+
+        result = osculate.run(block(), on_increment=watch)
+        self.assertEqual([t[:3] for t in told],
+                         [("weight", 1, 0.5), ("weight", 2, 1.0), ("more", 1, 1.5), ("more", 2, 2.0)])
+        for one, increment, force in zip(told, result.increments[1:], result.history["c.normal_force"][1:]):
+            self.assertEqual(one[3], increment.record["iterations"])
+            self.assertEqual(one[7], force)
+            self.assertEqual(list(one[6]), list(increment.parts))
+            for part in one[6]:
+                live, read = one[6][part], increment.parts[part]
+                for name in ("points", "connectivity", "offsets", "types"):
+                    np.testing.assert_array_equal(getattr(live, name), getattr(read, name))
+                for name in ("point_data", "cell_data"):
+                    self.assertEqual(list(getattr(live, name)), list(getattr(read, name)))
+                    for field, values in getattr(live, name).items():
+                        np.testing.assert_array_equal(values, read[field])
+
+    def test_compressed_files_are_read(self):
+        packed = block(output={**block()["output"], "compress": True})
+        np.testing.assert_array_equal(osculate.run(packed).increments[-1]["S"],
+                                      osculate.run(block()).increments[-1]["S"])
+
+    def test_false_stops_with_what_has_converged(self):
+        result = osculate.run(block(), on_increment=lambda state: state.time < 1)
+        self.assertEqual(result.status, "stopped")
+        np.testing.assert_array_equal(result.history["time"], [0, 0.5, 1])
+
+    def test_an_exception_of_a_callback_comes_through(self):
+        def watch(state):
+            raise KeyError(state.step)
+
+        with self.assertRaisesRegex(KeyError, "weight"):
+            osculate.run(block(), on_increment=watch)
+        with self.assertRaisesRegex(ZeroDivisionError, ""):
+            osculate.run(block(), say=lambda text: 1 / 0)
+
+    def test_fields_cannot_be_asked_for_afterwards(self):
+        kept = []
+        osculate.run(block(), on_increment=kept.append)
+        with self.assertRaisesRegex(RuntimeError, "while it is told"):
+            kept[0]["U"]
+
+    def test_interrupt_keeps_what_has_converged(self):
+        def watch(state):
+            if state.time == 1:
+                signal.raise_signal(signal.SIGINT)
+
+        with self.assertRaises(KeyboardInterrupt) as raised:
+            osculate.run(block(), on_increment=watch)
+        self.assertIsInstance(raised.exception, osculate.Interrupted)
+        times = raised.exception.result.history["time"]
+        np.testing.assert_array_equal(times, [0, 0.5, 1])
+
+    def test_ctrl_c_while_it_computes(self):
+        long = block(steps=[{"name": "w", "increments": 20000, "body_force": [{"on": "block", "fy": -1}]}],
+                     output={"fields": "none", "report": False, "checkpoint": "none"})
+        timer = threading.Timer(0.5, signal.raise_signal, (signal.SIGINT,))
+        timer.start()
+        try:
+            with self.assertRaises(osculate.Interrupted) as raised:
+                osculate.run(long)
+        finally:
+            timer.cancel()
+        self.assertIn(len(raised.exception.result.increments), range(2, 20000))
+        self.assertEqual(raised.exception.result.status, "stopped")
+
+    def test_other_threads_go_on(self):
+        many = block(steps=[{"name": "w", "increments": 60, "body_force": [{"on": "block", "fy": -1}]}])
+        count, done = 0, threading.Event()
+        worker = threading.Thread(target=lambda: (osculate.run(many), done.set()))
+        worker.start()
+        while not done.wait(0.001):
+            count += 1
+        worker.join()
+        self.assertGreater(count, 5)
+
+
+class Meshes(unittest.TestCase):
+    """The block of 2 x 1 cells with 3 x 2 nodes, in several ways."""
+
+    points = np.array([[0, 0], [1, 0], [2, 0], [0, 1], [1, 1], [2, 1]])
+    quads = [[0, 1, 4, 3], [1, 2, 5, 4]]
+
+    def model(self):
+        model = block(sections=[{"on": "body", "material": "s", "element": "plane_strain"}])
+        del model["mesh"]
+        model["contact"][0]["slave"] = "bottom"
+        model["steps"] = [{"name": "press", "increments": 1, "prescribe": [{"on": "top", "ux": 0, "uy": -0.01}]}]
+        return model
+
+    def generated(self):
+        model = self.model()
+        model["mesh"] = {"generate": {"body": {"box": {"x": [0, 2], "y": [0, 1], "elements": [2, 1]}}}}
+        model["contact"][0]["slave"] = "body.bottom"
+        model["steps"][0]["prescribe"][0]["on"] = "body.top"
+        return osculate.run(model)
+
+    def mesh(self):
+        return {"points": self.points,
+                "cells": [("quad4", self.quads, "body"), ("line2", [[0, 1], [1, 2]], "bottom")],
+                "point_sets": {"top": [3, 4, 5]}}
+
+    def same(self, result):
+        expected = self.generated()
+        np.testing.assert_allclose(result.history["c.normal_force"], expected.history["c.normal_force"], rtol=1e-12)
+        np.testing.assert_array_equal(result.fields()["bodies"].points[:, :2], self.points)
+
+    def test_arrays(self):
+        self.same(osculate.run(self.model(), mesh=self.mesh()))
+
+    def test_sets_that_share_cells(self):
+        mesh = self.mesh()
+        mesh["cell_sets"] = {"left": [[0], None], "all": {0: [0, 1]}}
+        model = self.model()
+        model["sections"][0]["on"] = "all"
+        self.same(osculate.run(model, mesh=mesh))
+
+    def test_an_object_like_meshios(self):
+        class Block:
+            def __init__(self, kind, data):
+                self.type, self.data = kind, np.asarray(data)
+
+        class Mesh:
+            points = np.insert(self.points.astype(float), 2, 0, axis=1)
+            cells = [Block("quad", self.quads), Block("line", [[0, 1], [1, 2]])]
+            point_sets = {"top": np.array([3, 4, 5])}
+            cell_sets = {}
+            field_data = {"body": np.array([7, 2]), "bottom": np.array([8, 1])}
+            cell_data = {"gmsh:physical": [np.array([7, 7]), np.array([8, 8])]}
+
+        self.same(osculate.run(self.model(), mesh=Mesh()))
+
+    def test_second_order_in_vtk_order(self):
+        corners = np.array([[x, y, z] for z in (0, 1) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))], dtype=float)
+        pairs = [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)]
+        points = np.vstack([corners, [(corners[a] + corners[b]) / 2 for a, b in pairs]])
+        mesh = {"points": points, "cells": [("hexahedron20", [list(range(20))], "body")],
+                "point_sets": {"low": [0, 1, 2, 3, 8, 9, 10, 11], "high": [4, 5, 6, 7, 12, 13, 14, 15]}}
+        model = {"osculate": 1, "materials": {"s": {"linear_elastic": {"E": 100, "nu": 0}}},
+                 "sections": [{"on": "body", "material": "s", "element": "solid"}],
+                 "steps": [{"name": "pull", "increments": 1,
+                            "prescribe": [{"on": "low", "ux": 0, "uy": 0, "uz": 0},
+                                          {"on": "high", "ux": 0, "uy": 0, "uz": 0.01}]}]}
+        parts = osculate.run(model, mesh=mesh).fields()
+        np.testing.assert_allclose(parts.field("S")[:, 2], 1, rtol=1e-9)
+        np.testing.assert_array_equal(parts["bodies"].cells[0][1], [list(range(20))])
+        self.assertEqual(parts["bodies"].cells[0][0], "hexahedron20")
+
+    def test_wrong_meshes_are_refused(self):
+        for change, part in (({"cells": [("quad5", self.quads)]}, "no type of cells"),
+                             ({"cells": [("quad4", [[0, 1, 2]])]}, "has 4 nodes, not 3"),
+                             ({"cells": [("quad4", [[0, 1, 4, 6]])]}, "none of the 6 points"),
+                             ({"points": [1, 2, 3]}, "one row of")):
+            with self.subTest(part=part), self.assertRaisesRegex(osculate.InputError, part):
+                osculate.run(self.model(), mesh={**self.mesh(), **change})
+        with self.assertRaisesRegex(osculate.InputError, "unknown set 'top'"):
+            osculate.run(self.model(), mesh={**self.mesh(), "point_sets": {}})
+
+    def test_paths_are_relative_to_the_base(self):
+        with tempfile.TemporaryDirectory() as folder:
+            osculate.write_gmsh(self.mesh(), os.path.join(folder, "block.msh"))
+            self.same(osculate.run({**self.model(), "mesh": "block.msh"}, base=folder))
+
+    def test_forms_for_other_packages(self):
+        data = osculate.run(self.model(), mesh=self.mesh()).fields()["bodies"]
+        form = data.as_meshio()
+        self.assertEqual([(name, nodes.shape) for name, nodes in form["cells"]], [("quad", (2, 4))])
+        self.assertEqual(form["cell_data"]["CellNumber"][0].tolist(), [1, 2])
+        cells, types, points = data.as_pyvista()
+        np.testing.assert_array_equal(cells.reshape(2, 5)[:, 0], 4)
+        np.testing.assert_array_equal(cells.reshape(2, 5)[:, 1:], self.quads)
+        np.testing.assert_array_equal(types, 9)
+
+    @unittest.skipUnless(importlib.util.find_spec("matplotlib"), "matplotlib is not installed")
+    def test_history_is_drawn(self):
+        os.environ.setdefault("MPLBACKEND", "agg")
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "history.png")
+            axes = osculate.run(block()).plot_history("c.normal_force", file=file)
+            np.testing.assert_allclose(axes.lines[0].get_ydata()[-1], 16)
+            self.assertEqual(axes.get_ylabel(), "[force]")
+            self.assertEqual(pathlib.Path(file).read_bytes()[:4], b"\x89PNG")
+        with self.assertRaisesRegex(KeyError, "no column"):
+            osculate.run(block()).plot_history("none")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,54 @@
+"""Studies: a model over values of its parameters."""
+import os
+import tempfile
+import unittest
+
+import numpy as np
+import osculate
+from models import YAML, block
+
+OUTPUTS = {"force": "c.normal_force", "shear": lambda result: abs(result.history["c.shear_force"]).max()}
+
+
+class Studies(unittest.TestCase):
+    def test_all_combinations(self):
+        table = osculate.study(block(), {"side": [0.1, 0.2], "mu": [0.3, 0.5]}, OUTPUTS)
+        self.assertEqual([(row["side"], row["mu"]) for row in table], [(0.1, 0.3), (0.1, 0.5), (0.2, 0.3), (0.2, 0.5)])
+        np.testing.assert_allclose(table.column("shear"), [0.8, 0.8, 1.6, 1.6], rtol=1e-6)
+        np.testing.assert_allclose(table.array()["force"], 16, rtol=1e-9)
+        self.assertEqual(set(table.column("status")), {"done"})
+
+    def test_processes_change_nothing(self):
+        points = {"side": [0.1, 0.15, 0.2]}
+        self.assertEqual(osculate.study(block(), points, OUTPUTS, processes=1),
+                         osculate.study(block(), points, OUTPUTS, processes=3))
+
+    def test_a_function_makes_the_models_and_failures_are_rows(self):
+        def model(up):
+            steps = [{"name": "rest", "increments": 1, "body_force": [{"on": "block", "fy": -1}]},
+                     {"name": "then", "increments": 1, "body_force": [{"on": "block", "fy": up}]}]
+            return block(steps=steps)
+
+        table = osculate.study(model, [{"up": -2}, {"up": 1}], {"force": "c.normal_force"})
+        self.assertEqual(table.column("status").tolist(), ["done", "stopped"])
+        self.assertAlmostEqual(table[0]["force"], 16)
+        self.assertTrue(np.isnan(table[1]["force"]))
+
+    def test_a_file_keeps_its_results_in_folders(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "model.yaml")
+            with open(path, "w") as file:
+                file.write(YAML)
+            osculate.study(path, {"side": [0.1, 0.2]}, OUTPUTS, folder=os.path.join(folder, "study"))
+            second = osculate.Result(os.path.join(folder, "study", "0001"))
+            self.assertEqual(second.summary["parameters"]["side"], "0.2")
+            with self.assertRaisesRegex(TypeError, "folder"):
+                osculate.study(path, {"side": [0.1]}, OUTPUTS)
+
+    def test_bad_input_is_raised(self):
+        with self.assertRaisesRegex(osculate.InputError, "unknown parameter 'sid'"):
+            osculate.study(block(), {"sid": [1]}, OUTPUTS)
+
+
+if __name__ == "__main__":
+    unittest.main()
