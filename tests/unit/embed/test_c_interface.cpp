@@ -120,7 +120,7 @@ std::vector<Choice<Dim>> choices() {
          if (Dim == 3) c.factors.insert(c.factors.end(), {{5, 6}, {7, 8}});
        }},
       {"search", number("search.distance", 1.5), [](C& c) { c.search_distance = 1.5; }},
-      {"depth", number("search.depth", 0.12), [](C& c) { c.depth = 0.12; }},
+      {"depth", number("search.depth", 0.19), [](C& c) { c.depth = 0.19; }},
       {"half", number("part", 0.5), [](C& c) { c.part = 0.5; }},
       {"restitution", number("normal.damping.restitution", 0.5),
        [](C& c) { c.damping = Restitution{0.5}; }},
