@@ -28,7 +28,7 @@ namespace {
 struct DocFlags {
   std::vector<std::string> key;
   std::string word;
-  bool surface = false;
+  bool surface = false, manual = false;
 };
 
 std::string join(const std::vector<std::string>& words, char separator) {
@@ -78,7 +78,11 @@ void add_doc(CLI::App& app, int&) {
                       "(default: the whole file)");
   command->add_option("--search", flags->word, "Find keys and pages that speak of a word");
   command->add_flag("--surface", flags->surface, "Of the surface file of `osculate project`");
-  command->callback([flags] { print(stdout, "{}\n", documentation(*flags)); });
+  command->add_flag("--man", flags->manual, "The commands and their options as a page for man");
+  command->callback([flags, &app] {
+    if (flags->manual) return print(stdout, "{}", manual_page(app));
+    print(stdout, "{}\n", documentation(*flags));
+  });
 }
 
 void add_report(CLI::App& app, int&) {

@@ -3,6 +3,7 @@
 /// `osculate/evaluator.hpp`; a whole host is examples/embedding/host.cpp.
 #include "osculate/automatic_penalty.hpp"
 #include "osculate/closest_points.hpp"
+#include "osculate/csr.hpp"
 #include "osculate/derivative_check.hpp"
 #include "osculate/errors.hpp"
 #include "osculate/evaluator.hpp"

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -65,6 +66,12 @@ class Result {
   [[nodiscard]] std::span<const double> branch_force() const;
   /// d branch_force[row] / d coordinate[column]; empty unless it was asked for.
   [[nodiscard]] std::span<const Entry> tangent() const;
+  /// The same as dense blocks, for hosts that assemble by elements: a visitor is called with nodes
+  /// of rows, nodes of columns, and the derivatives of all forces of the former by all coordinates
+  /// of the latter, one row after the other. Blocks overlap, and are to be summed.
+  using BlockVisitor = std::function<void(
+      std::span<const Index> rows, std::span<const Index> columns, std::span<const double> values)>;
+  void visit_blocks(const BlockVisitor& visit) const;
   [[nodiscard]] std::span<const ContactPoint<Dim>> points()
       const;                                             ///< slave points, edge-edge contacts
   [[nodiscard]] const Constraints& constraints() const;  ///< with unknown tractions, else empty

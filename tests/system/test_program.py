@@ -80,8 +80,10 @@ class Program(unittest.TestCase):
         return subprocess.run([PROGRAM, *arguments], cwd=self.folder.name, capture_output=True, text=True)
 
     def test_without_the_verification_cases_one_sentence_says_what_to_do(self):
-        alone = self.path("osculate")
+        os.mkdir(self.path("bin"))
+        alone = self.path("bin/osculate")
         shutil.copy(PROGRAM, alone)
+        os.symlink(os.path.join(os.path.dirname(os.path.dirname(PROGRAM)), "lib"), self.path("lib"))
         done = subprocess.run([alone, "verify", "--list"], capture_output=True, text=True)
         self.assertEqual((done.returncode, done.stdout), (2, ""))
         self.assertIn("--target osculate-verify", done.stderr)

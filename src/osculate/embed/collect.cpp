@@ -10,17 +10,12 @@ Index row_of(const pairing::ContactBlock<Dim>& block, int k) {
 
 template <int Dim>
 void add_tangent(const pairing::ContactBlock<Dim>& block, std::vector<Entry>& out) {
-  for (int i = 0; i < Dim * block.count; ++i) {
-    const Index row = row_of(block, i);
-    for (int j = 0; block.tangent.size() > 0 && j < Dim * block.count; ++j)
-      out.push_back({row, row_of(block, j), block.tangent(i, j)});
-    for (const pairing::NodeMatrix<Dim>& g : block.path())
-      for (int d = 0; d < Dim; ++d)
-        out.push_back({row, Dim * g.node + d, block.path_rows.row(i).dot(g.value.col(d))});
-    for (const pairing::NodeGradient<Dim>& g : block.area)
-      for (int d = 0; d < Dim; ++d)
-        out.push_back({row, Dim * g.node + d, block.area_rows[i] * g.value[d]});
-  }
+  for_rectangles(block, [&](int columns, const auto& node, const auto& value) {
+    for (int i = 0; i < Dim * block.count; ++i)
+      for (int k = 0; k < columns; ++k)
+        for (int d = 0; d < Dim; ++d)
+          out.push_back({row_of(block, i), Dim * node(k) + d, value(i, k, d)});
+  });
 }
 
 template <int Dim>

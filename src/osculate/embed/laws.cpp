@@ -53,6 +53,21 @@ contact::Law<Laws> by_name(const NamedLaw& given) {
   return *law;
 }
 
+template <class Laws>
+std::vector<LawKey> keys_of_all() {
+  std::vector<LawKey> keys;
+  contact::for_each_law<Laws>([&]<class T>(const T& law) {
+    for (const core::Param<T>& p : T::params()) {
+      const std::string number(p.key.empty() ? T::key : p.key);
+      std::string path(T::key);
+      if (p.one_of) path += fmt::format(".{}", p.one_of->key);
+      if (!p.key.empty()) path += "." + number;
+      keys.push_back({path, std::string(T::key), number, core::table_in(law, p.slot) != nullptr});
+    }
+  });
+  return keys;
+}
+
 struct ToNormal {
   contact::NormalLaw operator()(const NamedLaw& l) const { return by_name<contact::NormalLaws>(l); }
   contact::NormalLaw operator()(const Penalty& l) const { return contact::penalty(l.stiffness); }
@@ -94,6 +109,10 @@ struct ToDamping {
 };
 
 }  // namespace
+
+std::vector<LawKey> law_keys(const NormalLaw&) { return keys_of_all<contact::NormalLaws>(); }
+std::vector<LawKey> law_keys(const FrictionLaw&) { return keys_of_all<contact::FrictionLaws>(); }
+std::vector<LawKey> law_keys(const DampingLaw&) { return keys_of_all<contact::DampingLaws>(); }
 
 contact::NormalLaw law_of(const NormalLaw& law) { return std::visit(ToNormal{}, law); }
 contact::FrictionLaw law_of(const FrictionLaw& law, bool may_part) {

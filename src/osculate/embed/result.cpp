@@ -1,6 +1,6 @@
 #include "osculate/result.hpp"
 
-#include "osculate/embed/values.hpp"
+#include "osculate/embed/collect.hpp"
 
 namespace osculate {
 namespace {
@@ -39,6 +39,25 @@ std::span<const double> Result<Dim>::branch_force() const {
 template <int Dim>
 std::span<const Entry> Result<Dim>::tangent() const {
   return value_->tangent;
+}
+template <int Dim>
+void Result<Dim>::visit_blocks(const BlockVisitor& visit) const {
+  if (value_->tangent.empty()) return;
+  std::vector<Index> nodes;
+  std::vector<double> values;
+  for (const pairing::ContactBlock<Dim>& block : value_->contact.blocks) {
+    if (!block.active()) continue;
+    const std::span<const Index> rows(block.nodes.data(), static_cast<std::size_t>(block.count));
+    embed::for_rectangles(block, [&](int columns, const auto& node, const auto& value) {
+      nodes.clear();
+      values.clear();
+      for (int k = 0; k < columns; ++k) nodes.push_back(node(k));
+      for (int i = 0; i < Dim * block.count; ++i)
+        for (int k = 0; k < columns; ++k)
+          for (int d = 0; d < Dim; ++d) values.push_back(value(i, k, d));
+      visit(rows, nodes, values);
+    });
+  }
 }
 template <int Dim>
 std::span<const ContactPoint<Dim>> Result<Dim>::points() const {

@@ -8,12 +8,14 @@ template <int Dim>
 void read_points(std::span<const double> values, std::size_t nodes, std::vector<Vec<Dim>>& x) {
   if (values.size() != Dim * nodes)
     throw Refused(fmt::format("{} coordinates given, {} expected", values.size(), Dim * nodes));
-  x.resize(nodes);
-  for (std::size_t n = 0; n < nodes; ++n) {
-    x[n] = Eigen::Map<const Vec<Dim>>(values.data() + Dim * n);
-    if (!x[n].allFinite())
+  const auto point = [&](std::size_t n) {
+    return Eigen::Map<const Vec<Dim>>(values.data() + Dim * n);
+  };
+  for (std::size_t n = 0; n < nodes; ++n)
+    if (!point(n).allFinite())
       throw Refused(fmt::format("the coordinates of node {} are not finite", n));
-  }
+  x.resize(nodes);
+  for (std::size_t n = 0; n < nodes; ++n) x[n] = point(n);
 }
 
 template <int Dim>
