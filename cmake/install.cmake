@@ -16,12 +16,12 @@ if(OSCULATE_APP)
   install(TARGETS osculate RUNTIME_DEPENDENCY_SET osculate_needs
     RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
   set(written ${CMAKE_BINARY_DIR}/app/osculate)  # by the program itself
-  install(FILES ${written}/osculate.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
+  install(FILES ${written}/osculate.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program OPTIONAL)
   install(FILES ${written}/osculate.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
-    RENAME osculate COMPONENT program)
-  install(FILES ${written}/_osculate DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT program)
+    RENAME osculate COMPONENT program OPTIONAL)
+  install(FILES ${written}/_osculate DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT program OPTIONAL)
   install(FILES ${written}/osculate.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d
-    COMPONENT program)
+    COMPONENT program OPTIONAL)
   if(OSCULATE_VERIFICATION)
     install(TARGETS osculate-verify RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT verification)
     install(DIRECTORY verification DESTINATION ${CMAKE_INSTALL_DATADIR}/osculate COMPONENT verification

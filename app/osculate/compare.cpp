@@ -20,12 +20,14 @@ void add_compare(CLI::App& app, int& exit_code) {
   command
       ->add_option("--tolerance", flags->tolerance,
                    "Exit code 1 where a difference is larger, relative to the largest value of its "
-                   "quantity")
+                   "quantity, or one has what the other lacks")
       ->check(CLI::NonNegativeNumber & finite());
   command->callback([flags, &exit_code] {
     const api::Comparison found = api::compare(flags->a, flags->b);
     print(stdout, "{}", found.text());
-    if (found.largest_relative() > flags->tolerance) exit_code = check_failed;
+    const bool asked = flags->tolerance < std::numeric_limits<double>::infinity();
+    if (asked && (found.lacks || found.largest_relative() > flags->tolerance))
+      exit_code = check_failed;
   });
 }
 

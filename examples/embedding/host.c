@@ -148,6 +148,7 @@ static int report(const osculate_result* result, int iterations, int sliding) {
 }
 
 int main(void) {
+  if (osculate_abi() != OSCULATE_ABI) return 1; /* the library is another one than the header */
   double x[size] = {0, 0, 1, 0, 0, 1}, ends[free_size];
   for (int i = 0; i < slaves; ++i) {
     const double along = 0.4 - 0.2 * i; /* the body is above: walked to -x */

@@ -216,7 +216,7 @@ module osculate_contact
                                                   facet) bind(c)
       import
       type(c_ptr), value :: evaluator, start, nodes, shape, facet
-      integer(c_size_t), intent(out) :: points, terms
+      integer(c_size_t), intent(inout) :: points, terms
     end function
     integer(c_int) function osculate_read_history(evaluator, bytes, size, out) bind(c)
       import

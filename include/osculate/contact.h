@@ -6,7 +6,8 @@
  *     osculate_result_force(result, &force, &size);
  *
  * Status     every function that can fail returns one; when it is not osculate_ok, osculate_error()
- *            says what is wrong, and nothing has changed. No exception leaves the library
+ *            says what is wrong; after osculate_refused and osculate_too_small nothing has changed but
+ *            sizes that say how much is needed. No exception leaves the library
  * Numbers    of nodes, facets and coordinates begin with 0; coordinate i of node n is number
  *            dimension * n + i; -1: none
  * Signs      as in osculate/surface.hpp and docs/conventions.md
@@ -71,6 +72,7 @@ osculate_status osculate_surface_create(int dimension, osculate_surface** out);
 void osculate_surface_free(osculate_surface* surface);
 
 /* Facets of one type, their nodes one facet after the other; several lists make one surface.
+ * `count`: of node numbers, of all facets together.
  * In the plane the body is on the right of the way from the first to the second node of a facet, in
  * space the corners run counterclockwise, seen from outside. */
 osculate_status osculate_surface_add_facets(osculate_surface* surface, osculate_facet_type type,
@@ -204,7 +206,8 @@ osculate_status osculate_evaluate(const osculate_evaluator* evaluator, const dou
 
 /* Slave points, sum_k shape[k] x[nodes[k]]: those of point i are numbers start[i] to start[i + 1] -
  * 1 of nodes and shape; facet[i] is that of the slave in the order given, -1: a node. Filled are
- * those arrays that are not NULL: start[points + 1], nodes[terms], shape[terms], facet[points]. */
+ * those arrays that are not NULL: start[points + 1], nodes[terms], shape[terms], facet[points].
+ * `points` and `terms` say on entry how much room there is, and then how much is needed. */
 osculate_status osculate_slave_points(const osculate_evaluator* evaluator, size_t* points,
                                       size_t* terms, int32_t* start, int32_t* nodes, double* shape,
                                       int32_t* facet);

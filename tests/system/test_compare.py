@@ -86,6 +86,30 @@ class Compare(unittest.TestCase):
         self.assertIn(f"only {self.a} has the columns block.top.rfy", output)
         self.assertIn(f"only {self.other} has the columns block.top.uy", output)
 
+    def test_what_one_lacks_is_no_agreement(self):
+        self.assertEqual(compare(self.a, self.other, "--tolerance", "1e300").returncode, 1)
+
+        def with_lines(name, keep):
+            damaged = os.path.join(self.folder, "lacks.results")
+            shutil.rmtree(damaged, ignore_errors=True)
+            shutil.copytree(self.a, damaged)
+            path = os.path.join(damaged, name)
+            with open(path) as file:
+                lines = file.read().split("\n")
+            with open(path, "w") as file:
+                file.write("\n".join(line for line in lines if keep(line)))
+            for pair in ((self.a, damaged), (damaged, self.a)):
+                result = compare(*pair, "--tolerance", "1e300")
+                self.assertEqual(result.returncode, 1, result.stdout)
+                yield result.stdout
+
+        for output in with_lines("results.pvd", lambda line: "contact0" not in line):
+            self.assertIn(f"only {self.a} has the results c", output)
+        for output in with_lines("results.pvd", lambda line: "DataSet" not in line):
+            self.assertIn(f"only {self.a} has the results ", output)
+        for output in with_lines("history.csv", lambda line: not line.startswith("press,2")):
+            self.assertIn(f"only {self.a} goes on after time 0.5", output)
+
     def test_a_missing_number_is_no_agreement(self):
         damaged = os.path.join(self.folder, "damaged.results")
         shutil.copytree(self.a, damaged)

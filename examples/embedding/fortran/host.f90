@@ -282,7 +282,7 @@ contains
       read (unit, *) step, number, time, theirs
     end do
     close (unit)
-    if (norm2(ours - theirs) > 1e-9_c_double * norm2(theirs)) then
+    if (.not. norm2(ours - theirs) <= 1e-9_c_double * norm2(theirs)) then
       print '(a, 2f20.12)', 'osculate run has ', theirs
       error stop 1
     end if

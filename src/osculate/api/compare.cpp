@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <limits>
 #include <map>
-#include <span>
+#include <set>
 
 #include "osculate/core/error.hpp"
 #include "osculate/core/text.hpp"
@@ -52,17 +52,20 @@ struct History {
 
 using Pairs = std::vector<std::array<std::size_t, 2>>;
 
-/// Rows of the same step and time, in their order.
+/// Rows of the same step and time, in their order; times grow.
 Pairs common_rows(const History& a, const History& b) {
   Pairs pairs;
-  std::size_t from = 0;
-  for (std::size_t i = 0; i < a.time.size(); ++i)
-    for (std::size_t j = from; j < b.time.size(); ++j)
-      if (a.step(i) == b.step(j) && same_time(a.time[i], b.time[j])) {
-        pairs.push_back({i, j});
-        from = j + 1;
-        break;
-      }
+  std::size_t i = 0, j = 0;
+  while (i < a.time.size() && j < b.time.size()) {
+    const bool same = same_time(a.time[i], b.time[j]);
+    if (same && a.step(i) == b.step(j)) pairs.push_back({i++, j++});
+    // The state at the end of a step may be another one's first.
+    else if (same ? i + 1 < a.time.size() && same_time(a.time[i + 1], b.time[j])
+                  : a.time[i] < b.time[j])
+      ++i;
+    else
+      ++j;
+  }
   return pairs;
 }
 
@@ -83,8 +86,21 @@ void note_alone(const std::vector<std::string>& mine, const std::vector<std::str
   std::vector<std::string> alone;
   for (const std::string& name : mine)
     if (std::find(theirs.begin(), theirs.end(), name) == theirs.end()) alone.push_back(name);
-  if (!alone.empty())
-    out.notes.push_back(fmt::format("only {} has the {} {}", folder, what, core::join(alone)));
+  if (alone.empty()) return;
+  out.notes.push_back(fmt::format("only {} has the {} {}", folder, what, core::join(alone)));
+  out.lacks = true;
+}
+
+/// Increments between those that both have are one's smaller steps; behind them the other has
+/// ended.
+void note_increments(const History& mine, std::size_t common, std::size_t last,
+                     const std::string& folder, Comparison& out) {
+  if (mine.time.size() > common)
+    out.notes.push_back(
+        fmt::format("only {} has {} further increments", folder, mine.time.size() - common));
+  if (last + 1 == mine.time.size()) return;
+  out.notes.push_back(fmt::format("only {} goes on after time {:.9g}", folder, mine.time[last]));
+  out.lacks = true;
 }
 
 // ---- fields -------------------------------------------------------------------------------------
@@ -94,6 +110,20 @@ using Sets = std::vector<io::PvdDataSet>;
 Sets data_sets(const std::string& folder) {
   const std::filesystem::path path = std::filesystem::path(folder) / "results.pvd";
   return std::filesystem::exists(path) ? io::read_pvd(path.string()) : Sets{};
+}
+
+/// "bodies", "PAIR" ... of a run, each once.
+std::vector<std::string> names_of(const Sets& sets) {
+  std::vector<std::string> names;
+  for (const io::PvdDataSet& set : sets)
+    if (std::find(names.begin(), names.end(), set.name) == names.end()) names.push_back(set.name);
+  return names;
+}
+
+std::vector<std::string> names_of(const std::string& set, const std::vector<io::Field>& fields) {
+  std::vector<std::string> names;
+  for (const io::Field& field : fields) names.push_back(set + " " + field.name);
+  return names;
 }
 
 /// Fields of one data set at one time in both. Numbers of nodes and cells are compared, too: with
@@ -122,6 +152,9 @@ void compare_fields(const std::string& name, double time, const std::vector<io::
 
 void compare_data_sets(const std::string& a, const std::string& b, Comparison& out) {
   const Sets mine = data_sets(a), theirs = data_sets(b);
+  note_alone(names_of(mine), names_of(theirs), "results", a, out);
+  note_alone(names_of(theirs), names_of(mine), "results", b, out);
+  std::set<std::string> seen;  // data sets whose names of fields have been looked at
   std::map<std::string, QuantityDifference> found;
   std::vector<bool> taken(theirs.size(), false);
   for (const io::PvdDataSet& set : mine)
@@ -131,8 +164,12 @@ void compare_data_sets(const std::string& a, const std::string& b, Comparison& o
       const auto fields = [](const std::string& folder, const std::string& file) {
         return io::read_vtu_fields((std::filesystem::path(folder) / file).string());
       };
-      compare_fields(set.name, set.time, fields(a, set.file), fields(b, theirs[j].file), found,
-                     out);
+      const std::vector<io::Field> x = fields(a, set.file), y = fields(b, theirs[j].file);
+      compare_fields(set.name, set.time, x, y, found, out);
+      if (seen.insert(set.name).second) {
+        note_alone(names_of(set.name, x), names_of(set.name, y), "fields", a, out);
+        note_alone(names_of(set.name, y), names_of(set.name, x), "fields", b, out);
+      }
       break;
     }
   for (auto& [name, difference] : found) out.quantities.push_back(std::move(difference));
@@ -172,10 +209,8 @@ Comparison compare(const std::string& a, const std::string& b) {
   compare_data_sets(a, b, out);
   note_alone(x.table.columns, y.table.columns, "columns", a, out);
   note_alone(y.table.columns, x.table.columns, "columns", b, out);
-  for (const auto& [history, folder] : {std::pair(&x, &a), {&y, &b}})
-    if (history->time.size() > pairs.size())
-      out.notes.push_back(fmt::format("only {} has {} further increments", *folder,
-                                      history->time.size() - pairs.size()));
+  note_increments(x, pairs.size(), pairs.back()[0], a, out);
+  note_increments(y, pairs.size(), pairs.back()[1], b, out);
   return out;
 }
 

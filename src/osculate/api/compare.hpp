@@ -9,9 +9,8 @@ namespace osculate::api {
 /// a pair.
 ///
 /// Formula    largest |a - b| over all increments, nodes and components; relative: over `scale`,
-/// the
-///            largest |a| or |b| of the quantity. Two that are both NaN, or the same infinity, are
-///            equal; a number and NaN are infinitely far apart
+///            the largest |a| or |b| of the quantity. Two that are both NaN, or the same infinity,
+///            are equal; a number and NaN are infinitely far apart
 struct QuantityDifference {
   std::string quantity;
   double largest = 0, scale = 0;
@@ -23,6 +22,9 @@ struct Comparison {
   std::vector<QuantityDifference> quantities;
   int increments = 0;              ///< that both have, by step and time
   std::vector<std::string> notes;  ///< what only one of them has
+  /// Whether one has columns, results or fields that the other lacks, or goes on where it has
+  /// ended.
+  bool lacks = false;
   [[nodiscard]] double largest_relative() const;
   /// Table and notes.
   [[nodiscard]] std::string text() const;
@@ -31,8 +33,7 @@ struct Comparison {
 /// Two result folders, increment by increment: what `osculate compare` does.
 ///
 /// Errors     core::InputError for a folder without history.csv, and for two without an increment
-/// in
-///            common
+///            in common
 /// Tested by  tests/system/test_compare.py
 [[nodiscard]] Comparison compare(const std::string& a, const std::string& b);
 

@@ -23,12 +23,15 @@ auto with(const osculate_evaluator* evaluator, const Work& work) {
   return std::visit(work, given(evaluator, "evaluator").value);
 }
 
-/// The result in a box, of this dimension.
-template <int Dim>
-Result<Dim>& result_in(osculate_result* box) {
-  osculate_result& to = given(box, "result");
-  if (auto* const result = std::get_if<Result<Dim>>(&to.value)) return *result;
-  return to.value.emplace<Result<Dim>>();
+/// Evaluates into the result in a box; one of the other dimension, or none, is replaced when that
+/// has succeeded.
+template <int Dim, class Evaluate>
+void into_box(osculate_result& box, const Evaluate& evaluate) {
+  box.blocks.clear();  // of the last evaluation; made again when they are asked for
+  if (auto* const result = std::get_if<Result<Dim>>(&box.value)) return evaluate(*result);
+  Result<Dim> fresh;
+  evaluate(fresh);
+  box.value = std::move(fresh);
 }
 
 /// An active set in a box; none where there is no box.
@@ -130,12 +133,12 @@ osculate_status osculate_evaluate(const osculate_evaluator* evaluator, const dou
     const auto x = embed::array(coordinates, size, "coordinates");
     embed::with(evaluator, [&]<int Dim>(const Evaluator<Dim>& e) {
       const auto now = embed::conditions_of<Dim>(committed, active_set, multipliers, increment);
-      Result<Dim>& result = embed::result_in<Dim>(out);
-      if (multipliers == nullptr)
-        e.evaluate(x, now.committed, now.active_set, result, now.increment);
-      else
-        e.evaluate(x, now.committed, now.active_set, now.multipliers, result, now.increment);
-      out->blocks.clear();  // were those of the last evaluation
+      embed::into_box<Dim>(given(out, "result"), [&](Result<Dim>& result) {
+        if (multipliers == nullptr)
+          e.evaluate(x, now.committed, now.active_set, result, now.increment);
+        else
+          e.evaluate(x, now.committed, now.active_set, now.multipliers, result, now.increment);
+      });
     });
   });
 }
@@ -144,14 +147,21 @@ osculate_status osculate_slave_points(const osculate_evaluator* evaluator, std::
                                       std::size_t* terms, std::int32_t* start, std::int32_t* nodes,
                                       double* shape, std::int32_t* facet) {
   return answered([&] {
-    embed::with(evaluator, [&]<int Dim>(const Evaluator<Dim>& e) {
-      embed::PointArrays arrays{start, nodes, shape, facet};
+    return embed::with(evaluator, [&]<int Dim>(const Evaluator<Dim>& e) {
       const std::vector<SlavePoint<Dim>> all = e.slave_points();
+      std::size_t needed = 0;
+      for (const SlavePoint<Dim>& point : all) needed += point.nodes.size();
+      const void* const by_point = start ? static_cast<const void*>(start) : facet;
+      const void* const by_term = nodes ? static_cast<const void*>(nodes) : shape;
+      const osculate_status first =
+          embed::filled(by_point, given(points, "points"), all.size(), [] {});
+      const osculate_status second = embed::filled(by_term, given(terms, "terms"), needed, [] {});
+      if (first != osculate_ok || second != osculate_ok) return osculate_too_small;
+      embed::PointArrays arrays{start, nodes, shape, facet};
       std::size_t sum = 0;
       if (start) *start = 0;
       for (const SlavePoint<Dim>& point : all) arrays.add(point, sum);
-      if (points) *points = all.size();
-      if (terms) *terms = sum;
+      return osculate_ok;
     });
   });
 }

@@ -1,4 +1,6 @@
 // What an evaluation found, for hosts in C.
+#include <limits>
+
 #include "osculate/embed/c_call.hpp"
 #include "osculate/embed/c_handles.hpp"
 #include "osculate/embed/c_multipliers.hpp"
@@ -54,34 +56,37 @@ osculate_contact_point point_of_host(const ContactPoint<Dim>& p) {
 }
 
 /// The blocks of a result, kept in its box. Their arrays grow while they are filled, so that
-/// pointers are set at the end.
+/// pointers are set at the end, and the box gets the list when it is whole.
 template <int Dim>
 void keep_blocks(const Result<Dim>& result, osculate_result& box) {
   box.nodes.clear();
   box.values.clear();
-  result.visit_blocks([&box](std::span<const Index> rows, std::span<const Index> columns,
-                             std::span<const double> values) {
-    box.blocks.push_back({nullptr, nullptr, nullptr, static_cast<std::int32_t>(rows.size()),
-                          static_cast<std::int32_t>(columns.size())});
+  std::vector<osculate_block> blocks;
+  result.visit_blocks([&](std::span<const Index> rows, std::span<const Index> columns,
+                          std::span<const double> values) {
+    blocks.push_back({nullptr, nullptr, nullptr, static_cast<std::int32_t>(rows.size()),
+                      static_cast<std::int32_t>(columns.size())});
     box.nodes.insert(box.nodes.end(), rows.begin(), rows.end());
     box.nodes.insert(box.nodes.end(), columns.begin(), columns.end());
     box.values.insert(box.values.end(), values.begin(), values.end());
   });
   const std::int32_t* node = box.nodes.data();
   const double* value = box.values.data();
-  for (osculate_block& block : box.blocks) {
+  for (osculate_block& block : blocks) {
     block.rows = node;
     block.columns = node += block.row_count;
     node += block.column_count;
     block.values = value;
     value += Dim * Dim * block.row_count * block.column_count;
   }
+  box.blocks = std::move(blocks);
 }
 
 template <class Number, class Matrix>
 osculate_status add_to(const osculate_entry* entries, std::size_t count, const Matrix* matrix) {
   return answered([&] {
     const Matrix& m = given(matrix, "matrix");
+    if (m.rows == std::numeric_limits<std::size_t>::max()) throw Refused("matrix.rows is negative");
     const auto starts = array(m.row_start, m.rows + 1, "matrix.row_start");
     const auto stored = static_cast<std::size_t>(starts.back() - m.base);
     const std::span<const osculate_entry> list = array(entries, count, "entries");

@@ -18,7 +18,8 @@ Number place_of(Index entry, std::span<const Number> of, Number base, const char
   if (entry < 0 || static_cast<std::size_t>(entry) >= of.size())
     throw Refused(fmt::format("the list of {}s has {} numbers, and an entry has {} {}", what,
                               of.size(), what, entry));
-  return of[static_cast<std::size_t>(entry)] - base;
+  const Number number = of[static_cast<std::size_t>(entry)];
+  return number < base ? Number{-1} : number - base;
 }
 
 /// Where the value of an entry is stored.

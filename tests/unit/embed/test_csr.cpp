@@ -25,7 +25,8 @@ struct Small {
   explicit Small(Number b) : base(b) {
     for (auto* const list : {&row_start, &columns, &row_of})
       for (Number& number : *list) number += base;
-    row_of[1] = row_of[3] = base - 1;
+    row_of[1] = base - 1;
+    row_of[3] = std::numeric_limits<Number>::min();
   }
   [[nodiscard]] CsrMatrix<Number> matrix() {
     return {row_start, columns, values, row_of, row_of, base};
