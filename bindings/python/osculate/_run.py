@@ -200,8 +200,12 @@ class Result:
 
 def _settings(parameters):
     """As `--set` has them."""
-    return [(name, repr(float(value)) if isinstance(value, float) else str(value))
-            for name, value in (parameters or {}).items()]
+    def text(value):
+        if isinstance(value, (bool, np.bool_)):
+            return "true" if value else "false"
+        return repr(float(value)) if isinstance(value, (float, np.floating)) else str(value)
+
+    return [(name, text(value)) for name, value in (parameters or {}).items()]
 
 
 def _model(model, mesh, base, mesh_file):

@@ -416,6 +416,34 @@ TEST_F(Run, ParametersAreInTheSummary) {
   EXPECT_EQ(summary()["parameters"]["down"], "-0.03");
 }
 
+TEST_F(Run, WhoWatchesSeesFieldsAndMayStop) {
+  RunOptions o = options();
+  std::vector<double> times;
+  o.converged = [&](const LiveIncrement& live) {
+    times.push_back(live.progress.time);
+    EXPECT_EQ(live.row.size(), live.columns.size());
+    const std::vector<result::DataSet> sets = live.fields();
+    EXPECT_EQ(sets.front().part, "bodies");
+    EXPECT_EQ(sets.back().part, "floor");
+    EXPECT_EQ(sets.front().point_fields.front().name, "U");
+    return times.size() < 2;
+  };
+  EXPECT_EQ(run(o).status, RunStatus::stopped);
+  EXPECT_EQ(times, (std::vector<double>{0.5, 1}));
+  EXPECT_EQ(table(read(results / "history.csv")).size(), 1 + 1 + 2u);
+}
+
+TEST_F(Run, ADocumentStandsInPlaceOfTheFile) {
+  ASSERT_EQ(run(options()).status, RunStatus::done);
+  const std::string expected = read(results / "history.csv");
+  const deck::SourceNode document = deck::read_yaml(model, "model");
+  RunOptions o = options("none");
+  o.folder = (folder / "other").string();
+  o.document = &document;
+  EXPECT_EQ(run(o).status, RunStatus::done);
+  EXPECT_EQ(read(folder / "other" / "history.csv"), expected);
+}
+
 TEST_F(Run, AnInterruptBeforeTheFirstIncrementStops) {
   RunOptions o = options();
   o.interrupted = [] { return true; };
