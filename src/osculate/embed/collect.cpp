@@ -12,7 +12,7 @@ template <int Dim>
 void add_tangent(const pairing::ContactBlock<Dim>& block, std::vector<Entry>& out) {
   for (int i = 0; i < Dim * block.count; ++i) {
     const Index row = row_of(block, i);
-    for (int j = 0; block.tangent.size() > 0 && j < Dim * block.count; ++j)
+    for (int j = 0; block.has_tangent() && j < Dim * block.count; ++j)
       out.push_back({row, row_of(block, j), block.tangent(i, j)});
     for (const pairing::NodeMatrix<Dim>& g : block.path())
       for (int d = 0; d < Dim; ++d)
