@@ -13,7 +13,7 @@ void collect(bool with_tangent, Evaluation<Dim>& e);
 template <int Dim, class Take>
 void for_rectangles(const pairing::ContactBlock<Dim>& block, const Take& take) {
   const auto at = [](int k) { return static_cast<std::size_t>(k); };
-  if (block.tangent.size() > 0)
+  if (block.has_tangent())
     take(
         block.count, [&](int k) { return block.nodes[at(k)]; },
         [&](int i, int k, int d) { return block.tangent(i, Dim * k + d); });

@@ -15,12 +15,9 @@ using projection::FacetFoot;
 using projection::Feature;
 
 DistanceJet2 distance_at(const PatchQuery& q, const Vec2& xi) {
-  const GregoryBasis basis = gregory_basis(cell::is_triangle(q.type), xi);
-  std::array<Vec3, 6> r;
-  r.fill(Vec3::Zero());
-  for (std::size_t d = 0; d < r.size(); ++d)
-    for (std::size_t j = 0; j < gregory_points; ++j) r[d] += basis[d][j] * q.points[j];
-  return projection::distance_jet2<3>(q.point - r[0], {r[1], r[2]}, {r[3], r[4], r[5]});
+  const GregoryJet jet = gregory_jet(cell::is_triangle(q.type), q.points, xi);
+  const auto r = [&](std::size_t d) -> Vec3 { return jet[d].head<3>(); };
+  return projection::distance_jet2<3>(q.point - r(0), {r(1), r(2)}, {r(3), r(4), r(5)});
 }
 
 /// Distance of a coordinate from the borders of the cell, inwards, in parts of its range.
@@ -109,16 +106,17 @@ EdgeCurve edge_curve(const PatchQuery& q, int edge) {
   EdgeCurve out;
   std::array<Vec3, 5> b;
   b.fill(Vec3::Zero());
+  const auto point = [&](std::size_t j) -> Vec3 { return q.points[j].head<3>(); };
   if (cell::is_triangle(q.type)) {
     out.degree = 4;
-    b[0] = q.points[k];
-    for (std::size_t s = 1; s < 4; ++s) b[s] = q.points[triangle_border(k, s)];
-    b[4] = q.points[(k + 1) % 3];
+    b[0] = point(k);
+    for (std::size_t s = 1; s < 4; ++s) b[s] = point(triangle_border(k, s));
+    b[4] = point((k + 1) % 3);
   } else {
     for (std::size_t s = 0; s < 4; ++s) {
       const std::array<std::size_t, 4> place{quad_point(s, 0), quad_point(3, s),
                                              quad_point(3 - s, 3), quad_point(0, 3 - s)};
-      b[s] = q.points[place[k]];
+      b[s] = point(place[k]);
     }
   }
   double binomial = 1;  // powers from forward differences of the control points
@@ -173,12 +171,14 @@ double nearest_on_edge(const EdgeCurve& e, const Vec3& point, double& squared) {
 
 }  // namespace
 
-PatchPoints patch_points(const SurfaceFacet& facet, std::span<const Vec3> x) {
-  PatchPoints points;
-  points.fill(Vec3::Zero());
-  for (std::size_t k = 0; k < static_cast<std::size_t>(facet.count); ++k)
-    for (std::size_t j = 0; j < gregory_points; ++j)
-      points[j] += facet.patch->weight[j][k] * x[static_cast<std::size_t>(facet.nodes[k])];
+GregoryPoints patch_points(const SurfaceFacet& facet, std::span<const Vec3> x) {
+  GregoryPoints points;
+  points.fill(Eigen::Array4d::Zero());
+  for (std::size_t k = 0; k < static_cast<std::size_t>(facet.count); ++k) {
+    const Vec3& at = x[static_cast<std::size_t>(facet.nodes[k])];
+    const Eigen::Array4d node(at.x(), at.y(), at.z(), 0);
+    for (std::size_t j = 0; j < gregory_points; ++j) points[j] += facet.patch->weight[j][k] * node;
+  }
   return points;
 }
 
@@ -198,7 +198,8 @@ FacetFoot closest_on_patch_edge(const PatchQuery& query, int edge) {
 
 FacetFoot closest_on_patch(const PatchQuery& query, const Vec2& start) {
   const Vec2 middle = cell::is_triangle(query.type) ? Vec2(1.0 / 3, 1.0 / 3) : Vec2(0, 0);
-  FacetFoot best = foot_inside(query, 0.98 * start + 0.02 * middle);
+  const bool inside = least_room(query.type, start) > 0.01;  // else a little inwards
+  FacetFoot best = foot_inside(query, inside ? start : Vec2(0.98 * start + 0.02 * middle));
   if (best.feature == Feature::face && least_room(query.type, best.xi) > 0.01) return best;
   if (best.feature != Feature::face) best = {};
   const int edges = cell::is_triangle(query.type) ? 3 : 4;

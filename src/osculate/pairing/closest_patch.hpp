@@ -6,13 +6,12 @@
 namespace osculate::pairing {
 
 /// Control points of a patch in configuration `x`.
-using PatchPoints = std::array<Vec3, gregory_points>;
-[[nodiscard]] PatchPoints patch_points(const SurfaceFacet& facet, std::span<const Vec3> x);
+[[nodiscard]] GregoryPoints patch_points(const SurfaceFacet& facet, std::span<const Vec3> x);
 
 /// The patch seen from a point.
 struct PatchQuery {
   cell::CellType type;
-  const PatchPoints& points;
+  const GregoryPoints& points;
   Vec3 point;
 };
 

@@ -95,28 +95,39 @@ double release_room(std::span<const Vec3> nodes) {
   return 4 * end_extension * std::sqrt(longest);
 }
 
+/// The foot on a smooth patch. The search begins where the point was, on another patch at the foot
+/// on the facet through its corners.
+FacetFoot foot_on_patch(const FacetSurface& surface, const SurfaceFacet& facet,
+                        std::span<const Vec3> x, const ProjectionQuery<3>& query) {
+  const bool was_here =
+      query.history >= 0 && &facet == &surface.facets[static_cast<std::size_t>(query.history)];
+  FacetNodes buffer;
+  const Vec2 start =
+      was_here ? query.history_xi
+               : projection::closest_point(facet.type, nodes_of(facet, x, buffer), query.point).xi;
+  const GregoryPoints points = patch_points(facet, x);
+  const PatchQuery on_patch{facet.type, points, query.point};
+  FacetFoot foot = closest_on_patch(on_patch, start);
+  const auto release = [&](double extension, FacetFoot& f) {
+    return release_from_patch(on_patch, extension, f);
+  };
+  release_border(surface, facet, x, query, release, foot);
+  return foot;
+}
+
 /// The foot, clamped to the facet where it is farther than `limit` anyway.
 FacetFoot foot_on_facet(const FacetSurface& surface, const SurfaceFacet& facet,
                         std::span<const Vec3> x, const ProjectionQuery<3>& query,
                         double limit = std::numeric_limits<double>::infinity()) {
   if (facet.shape) return foot_on_shape(facet, x, query.point);
+  if (facet.patch) return foot_on_patch(surface, facet, x, query);
   FacetNodes buffer;
   const std::span<const Vec3> nodes = nodes_of(facet, x, buffer);
   FacetFoot foot = projection::closest_point(facet.type, nodes, query.point);
   const double squared_limit = limit * limit;
-  if (foot.squared_distance > squared_limit && facet.count <= 4 && !facet.patch) {
+  if (foot.squared_distance > squared_limit && facet.count <= 4) {
     const double reached = limit + release_room(nodes);
     if (foot.feature == Feature::face || foot.squared_distance > reached * reached) return foot;
-  }
-  if (facet.patch) {
-    const PatchPoints points = patch_points(facet, x);
-    const PatchQuery on_patch{facet.type, points, query.point};
-    foot = closest_on_patch(on_patch, foot.xi);
-    const auto release = [&](double extension, FacetFoot& f) {
-      return release_from_patch(on_patch, extension, f);
-    };
-    release_border(surface, facet, x, query, release, foot);
-    return foot;
   }
   const auto release = [&](double extension, FacetFoot& f) {
     return projection::release(facet.type, nodes, query.point, extension, f);
@@ -128,7 +139,7 @@ FacetFoot foot_on_facet(const FacetSurface& surface, const SurfaceFacet& facet,
 FacetFoot foot_on_edge(const SurfaceFacet& facet, std::span<const Vec3> x, int edge,
                        const Vec3& point) {
   if (facet.patch) {
-    const PatchPoints points = patch_points(facet, x);
+    const GregoryPoints points = patch_points(facet, x);
     return closest_on_patch_edge({facet.type, points, point}, edge);
   }
   FacetNodes buffer;
@@ -327,9 +338,9 @@ void facet_boxes(const FacetSurface& surface, std::span<const Vec3> x,
       continue;
     }
     if (facet.patch) {  // in the hull of its control points
-      const PatchPoints points = patch_points(facet, x);
-      const std::size_t used = cell::is_triangle(facet.type) ? 18 : gregory_points;
-      for (std::size_t j = 0; j < used; ++j) box.extend(points[j]);
+      const GregoryPoints points = patch_points(facet, x);
+      const std::size_t used = cell::is_triangle(facet.type) ? triangle_points : gregory_points;
+      for (std::size_t j = 0; j < used; ++j) box.extend(Vec3(points[j].head<3>()));
       continue;
     }
     for (std::size_t k = 0; k < static_cast<std::size_t>(facet.count); ++k)

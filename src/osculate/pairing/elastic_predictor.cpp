@@ -206,7 +206,7 @@ struct FacetFrame {
 
 FacetFrame facet_frame(const SurfaceFacet& facet, const Vec2& xi, std::span<const Vec3> x) {
   FacetFrame f;
-  f.shape = facet_shape(facet, xi);
+  f.shape = facet_shape(facet, xi, 2);
   f.jet = facet_jet(facet, f.shape, x);
   f.normal = f.jet.r1[0].cross(f.jet.r1[1]).normalized();
   f.frame = contact::tangent_frame<3>(f.normal, f.jet.r1[0]);

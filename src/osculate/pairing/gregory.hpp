@@ -1,11 +1,12 @@
 #pragma once
+#include <Eigen/Core>
 #include <array>
 
 #include "osculate/cell/facet_shape.hpp"
 
 namespace osculate::pairing {
 
-inline constexpr std::size_t gregory_points = 20;
+inline constexpr std::size_t gregory_points = 20, triangle_points = 18;
 
 /// A patch over a quadrilateral (bicubic) or a triangle (of degree 4) whose control points are
 /// fixed combinations of nodes, so that a point of it is one too: no contact formula knows the
@@ -30,9 +31,15 @@ struct GregoryWeights {
 using GregoryBasis = std::array<std::array<double, gregory_points>, 10>;
 [[nodiscard]] GregoryBasis gregory_basis(bool triangle, const Vec2& xi);
 
-/// Shape functions of the first `count` nodes.
-[[nodiscard]] cell::FacetShape gregory_shape(const GregoryWeights& patch, int count,
-                                             const Vec2& xi);
+/// Shape functions of the first `count` nodes and their derivatives up to `order`.
+[[nodiscard]] cell::FacetShape gregory_shape(const GregoryWeights& patch, int count, const Vec2& xi,
+                                             int order = 3);
+
+/// Control points in one configuration, with a fourth coordinate that is 0.
+using GregoryPoints = std::array<Eigen::Array4d, gregory_points>;
+/// The place r and r_1, r_2; r_11, r_12, r_22 likewise.
+using GregoryJet = std::array<Eigen::Array4d, 6>;
+[[nodiscard]] GregoryJet gregory_jet(bool triangle, const GregoryPoints& points, const Vec2& xi);
 
 /// Number in the list of points; of the inner ones near corner (i, j) of the quadrilateral for the
 /// borders of constant second (0) or first (1) coordinate, i, j = 1 or 2.

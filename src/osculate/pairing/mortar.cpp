@@ -82,10 +82,10 @@ bool usable(std::span<const std::size_t> local, const std::vector<NodalNormal<Di
                      [&](std::size_t i) { return normals[i].value.squaredNorm() > 0; });
 }
 
-/// Cells of slave facet `f`, without derivatives; returns how many.
+/// Cells of slave facet `f`; returns how many.
 template <int Dim>
 std::size_t find_cells(const MortarSides<Dim>& sides, const SlaveSide<Dim>& slave, std::size_t f,
-                       Points<Dim> x, PairEvaluation<Dim>& out) {
+                       Points<Dim> x, bool derivatives, PairEvaluation<Dim>& out) {
   std::vector<Index>& near = out.mortar.overlaps[f];
   near.clear();
   if (!usable<Dim>(out.mortar.slots[f], out.mortar.normals)) return 0;
@@ -95,7 +95,7 @@ std::size_t find_cells(const MortarSides<Dim>& sides, const SlaveSide<Dim>& slav
   for (const Index m : near) {
     if (!face_each_other<Dim>(slave.boundary.facets[f], sides.master->facets[at(m)], x)) continue;
     if (out.mortar.cells.size() <= count) out.mortar.cells.emplace_back();
-    if (mortar_cell(sides, static_cast<Index>(f), out.mortar.slots[f], m, x, false,
+    if (mortar_cell(sides, static_cast<Index>(f), out.mortar.slots[f], m, x, derivatives,
                     out.mortar.cells[count]))
       ++count;
   }
@@ -155,7 +155,7 @@ void matrices_of(const PairDefinition<Dim>& pair, std::size_t f, std::size_t cou
   const double cover = cover_of<Dim>(out.mortar.cells, count);
   mortar_facet<Dim>(std::span(out.mortar.cells).first(count), pair.master,
                     multiplier_basis(pair.slave.boundary.facets[f], cover > 1 - rounding),
-                    derivatives, out.mortar.facet);
+                    derivatives, out.mortar.facets[f]);
 }
 
 /// Empties a place. It keeps some room: how many nodes it has may depend on rounding.
@@ -167,9 +167,18 @@ void empty(MortarPlace& place) {
   place.weights.reserve(room);
 }
 
+/// Whether node `i` was in contact in the last iteration, or at the end of the last increment: then
+/// it most likely still is.
 template <int Dim>
-void refresh(const PairDefinition<Dim>& pair, Points<Dim> x, bool with_tangent,
-             PairEvaluation<Dim>& out) {
+bool was_in_contact(const PairState<Dim>& committed, const ActiveSet<Dim>& active_set,
+                    std::size_t i) {
+  return committed.points[i].active ||
+         (i < active_set.branch.size() && active_set.branch[i].branch != contact::Branch::none);
+}
+
+template <int Dim>
+void refresh(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Dim>& committed,
+             const ActiveSet<Dim>& active_set, bool with_tangent, PairEvaluation<Dim>& out) {
   const std::size_t n = pair.slave.nodes.size();
   set_slots(pair.slave, out.mortar.slots);
   out.mortar.normals.resize(n);
@@ -190,13 +199,21 @@ void refresh(const PairDefinition<Dim>& pair, Points<Dim> x, bool with_tangent,
     out.tree.refit(out.boxes);
   else
     out.tree = Tree<Dim>(out.boxes);
-  out.mortar.overlaps.resize(pair.slave.boundary.facets.size());
+  const std::size_t facets = pair.slave.boundary.facets.size();
+  out.mortar.overlaps.resize(facets);
+  out.mortar.facets.resize(facets);
+  out.mortar.has_rates.assign(facets, false);
   const MortarSides<Dim> sides = sides_of(pair, out);
-  for (std::size_t f = 0; f < out.mortar.overlaps.size(); ++f) {
-    const std::size_t count = find_cells(sides, pair.slave, f, x, out);
+  for (std::size_t f = 0; f < facets; ++f) {
+    const std::vector<std::size_t>& local = out.mortar.slots[f];
+    const bool rates = with_tangent && std::any_of(local.begin(), local.end(), [&](std::size_t i) {
+                         return was_in_contact(committed, active_set, i);
+                       });
+    const std::size_t count = find_cells(sides, pair.slave, f, x, rates, out);
     if (count == 0) continue;
-    matrices_of(pair, f, count, false, out);
-    add_facet<Dim>(out.mortar.facet, pair.slave.boundary.facets[f], out.mortar.slots[f],
+    matrices_of(pair, f, count, rates, out);
+    out.mortar.has_rates[f] = rates;
+    add_facet<Dim>(out.mortar.facets[f], pair.slave.boundary.facets[f], out.mortar.slots[f],
                    out.mortar.overlaps[f][0], x, out.mortar.nodes);
   }
 }
@@ -209,6 +226,20 @@ bool in_contact(std::span<const std::size_t> local, const std::vector<PointResul
                      [&](std::size_t i) { return points[i].status != Status::open; });
 }
 
+/// Derivatives of the matrices of slave facet `f`, which came into contact unexpectedly.
+template <int Dim>
+void add_derivatives(const PairDefinition<Dim>& pair, const MortarSides<Dim>& sides, std::size_t f,
+                     Points<Dim> x, PairEvaluation<Dim>& out) {
+  std::size_t count = 0;
+  for (const Index m : out.mortar.overlaps[f]) {
+    if (out.mortar.cells.size() <= count) out.mortar.cells.emplace_back();
+    if (mortar_cell(sides, static_cast<Index>(f), out.mortar.slots[f], m, x, true,
+                    out.mortar.cells[count]))
+      ++count;
+  }
+  matrices_of(pair, f, count, true, out);
+}
+
 /// Blocks of the facets, and all rates of the nodes.
 template <int Dim>
 void add_tangents(const PairDefinition<Dim>& pair, Points<Dim> x, PairEvaluation<Dim>& out) {
@@ -217,19 +248,12 @@ void add_tangents(const PairDefinition<Dim>& pair, Points<Dim> x, PairEvaluation
   for (std::size_t f = 0; f < out.mortar.overlaps.size(); ++f) {
     if (out.mortar.overlaps[f].empty() || !in_contact<Dim>(out.mortar.slots[f], out.points))
       continue;
-    std::size_t count = 0;
-    for (const Index m : out.mortar.overlaps[f]) {
-      if (out.mortar.cells.size() <= count) out.mortar.cells.emplace_back();
-      if (mortar_cell(sides, static_cast<Index>(f), out.mortar.slots[f], m, x, true,
-                      out.mortar.cells[count]))
-        ++count;
-    }
-    matrices_of(pair, f, count, true, out);
+    if (!out.mortar.has_rates[f]) add_derivatives(pair, sides, f, x, out);
     const auto& facet = pair.slave.boundary.facets[f];
     const std::span<const Index> slaves(facet.nodes.data(), at(facet.count));
-    add_rates<Dim>(out.mortar.facet, slaves, out.mortar.slots[f], x, out.mortar.nodes);
+    add_rates<Dim>(out.mortar.facets[f], slaves, out.mortar.slots[f], x, out.mortar.nodes);
     if (out.blocks.size() <= used) out.blocks.emplace_back();
-    set_facet_tangent<Dim>(out.mortar.facet, slaves, out.mortar.slots[f], out.mortar.tractions,
+    set_facet_tangent<Dim>(out.mortar.facets[f], slaves, out.mortar.slots[f], out.mortar.tractions,
                            out.blocks[used++]);
   }
   for (std::size_t k = used; k < out.blocks.size(); ++k) out.blocks[k].count = 0;
@@ -281,7 +305,7 @@ template <int Dim>
 void evaluate_mortar(const PairDefinition<Dim>& pair, Points<Dim> x,
                      const PairState<Dim>& committed, bool with_tangent, PairEvaluation<Dim>& out,
                      const ActiveSet<Dim>& active_set, const PairMultipliers<Dim>* multipliers) {
-  refresh<Dim>(pair, x, with_tangent, out);
+  refresh<Dim>(pair, x, committed, active_set, with_tangent, out);
   const std::size_t n = pair.slave.nodes.size();
   out.points.assign(n, {});
   out.mortar.places.resize(n);

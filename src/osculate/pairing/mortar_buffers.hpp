@@ -42,7 +42,10 @@ struct MortarBuffers {
   std::vector<std::vector<std::size_t>> slots;  ///< of each slave facet's nodes
   std::vector<std::vector<Index>> overlaps;     ///< of each slave facet: masters it lies over
   std::vector<MortarCell<Dim>> cells;
-  MortarFacet<Dim> facet;
+  /// Of each slave facet; those that were in contact in the last iteration, or at the end of the
+  /// last increment, have their derivatives from the beginning.
+  std::vector<MortarFacet<Dim>> facets;
+  std::vector<bool> has_rates;
   std::vector<Vec<Dim>> tractions;  ///< of the linearised branch
 };
 

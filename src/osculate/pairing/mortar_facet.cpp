@@ -40,7 +40,7 @@ FacetMatrix sums_of(std::span<const MortarCell<Dim>> cells, const Boundary<Dim>&
 /// E^-1 with D = diag(d) `own`; M = diag(d) `other` of the working space.
 struct Solved {
   FacetMatrix basis;
-  Eigen::LDLT<FacetMatrix> solver;
+  FacetMatrix inverse;
   FacetMatrix own;
 };
 
@@ -51,23 +51,22 @@ void add_column(const MortarCell<Dim>& cell, Row column, Row to, const Row* mast
                 const Solved& s, MortarFacet<Dim>& out) {
   const Row n = cell.e.rows(), rows = out.d.size();
   const Sheet::ConstView cell_de = cell.de.view(), cell_df = cell.df.view();
-  const FacetMatrix de = s.basis * Eigen::Map<const FacetMatrix>(cell_de.col(column).data(), n, n);
-  const FacetMatrix dee = de * s.basis.transpose();
-  const FacetMatrix df =
-      s.basis * Eigen::Map<const FacetMatrix>(cell_df.col(column).data(), n, cell.f.cols());
+  const FacetMatrix de =
+      s.basis.lazyProduct(Eigen::Map<const FacetMatrix>(cell_de.col(column).data(), n, n));
+  const FacetMatrix dee = de.lazyProduct(s.basis.transpose());
+  const FacetMatrix df = s.basis.lazyProduct(
+      Eigen::Map<const FacetMatrix>(cell_df.col(column).data(), n, cell.f.cols()));
+  const FacetMatrix turning = s.inverse.lazyProduct(dee), moved = s.inverse.lazyProduct(df);
+  const FacetMatrix own = s.inverse.lazyProduct(de) - turning.lazyProduct(s.own);
   const Sheet::ConstView other = std::as_const(out.work.other).view();
-  Sheet::View right = out.work.right.view();
-  right.noalias() = -dee * other;
-  for (Row l = 0; l < df.cols(); ++l) right.col(masters[l]) += df.col(l);
-  s.solver.solveInPlace(right);
-  FacetMatrix own = de - dee * s.own;
-  s.solver.solveInPlace(own);
   const FacetVector dd = dee.rowwise().sum();
   out.dd.view().col(to) += dd;
   Sheet::View dm = out.dm.view(), ds = out.ds.view();
+  const auto of_master = [&](Row l) { return dm.col(to).segment(rows * l, rows); };
   for (Row l = 0; l < other.cols(); ++l)
-    dm.col(to).segment(rows * l, rows) +=
-        dd.cwiseProduct(other.col(l)) + out.d.cwiseProduct(right.col(l));
+    of_master(l) +=
+        dd.cwiseProduct(other.col(l)) - out.d.cwiseProduct(turning.lazyProduct(other.col(l)));
+  for (Row l = 0; l < moved.cols(); ++l) of_master(masters[l]) += out.d.cwiseProduct(moved.col(l));
   for (Row k = 0; k < own.cols(); ++k)
     ds.col(to).segment(rows * k, rows) +=
         dd.cwiseProduct(s.own.col(k)) + out.d.cwiseProduct(own.col(k));
@@ -82,15 +81,16 @@ void mortar_facet(std::span<const MortarCell<Dim>> cells, const Boundary<Dim>& m
   Solved s{basis, {}, {}};
   const FacetMatrix mixed = s.basis * sum;
   const FacetMatrix e = mixed * s.basis.transpose();
-  s.solver.compute(e);
+  const Eigen::LDLT<FacetMatrix> solver(e);
   s.own = mixed;
-  s.solver.solveInPlace(s.own);
+  solver.solveInPlace(s.own);
+  s.inverse = FacetMatrix::Identity(e.rows(), e.rows());
+  solver.solveInPlace(s.inverse);
   const auto masters = static_cast<Row>(out.masters.size());
   out.work.other.set_zero(e.rows(), masters);
-  out.work.right.set_zero(e.rows(), masters);
   Sheet::View other = out.work.other.view();
   other.noalias() = s.basis * out.work.f.view();
-  s.solver.solveInPlace(other);
+  solver.solveInPlace(other);
   out.d = e.rowwise().sum();
   out.s = out.d.asDiagonal() * s.own;
   out.m.set_zero(e.rows(), masters);

@@ -26,7 +26,7 @@ struct MortarFacet {
   /// cell after the other; sums and solutions.
   struct Work {
     std::vector<Eigen::Index> masters, columns;
-    Sheet f, other, right;
+    Sheet f, other;
   } work;
 };
 

@@ -2,14 +2,17 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "osculate/cell/linear_facet.hpp"
 #include "osculate/cell/shape.hpp"
 #include "osculate/pairing/mortar_cell.hpp"
 #include "osculate/pairing/mortar_clip.hpp"
+#include "osculate/pairing/mortar_pieces.hpp"
 #include "osculate/pairing/mortar_rule.hpp"
 
 namespace osculate::pairing {
 namespace {
 
+using namespace mortar_pieces;
 using I = Eigen::Index;
 
 /// Variables of a polygon: plane coordinates of up to four nodes of the slave, then of the master.
@@ -19,42 +22,6 @@ using Variables = core::Dual<corner_variables>;
 constexpr int most_columns = 4 * cell::max_facet_nodes;
 /// Derivatives by the plane coordinates of all nodes, the slave's first.
 using Rows = Eigen::Matrix<double, 5, Eigen::Dynamic, Eigen::ColMajor, 5, most_columns>;
-
-// ---- linear pieces of facets --------------------------------------------------------------------
-
-/// Corners of a triangle (the last one is -1) or quadrilateral by local nodes.
-using Piece = std::array<int, 4>;
-
-std::span<const Piece> pieces_of(cell::CellType type) {
-  static constexpr std::array<Piece, 1> tri3{{{0, 1, 2, -1}}}, quad4{{{0, 1, 2, 3}}};
-  static constexpr std::array<Piece, 4> tri6{
-      {{0, 3, 5, -1}, {3, 1, 4, -1}, {5, 4, 2, -1}, {3, 4, 5, -1}}};
-  static constexpr std::array<Piece, 5> quad8{
-      {{0, 4, 7, -1}, {1, 5, 4, -1}, {2, 6, 5, -1}, {3, 7, 6, -1}, {4, 5, 6, 7}}};
-  static constexpr std::array<Piece, 4> quad9{
-      {{0, 4, 8, 7}, {4, 1, 5, 8}, {8, 5, 2, 6}, {7, 8, 6, 3}}};
-  switch (type) {
-    case cell::CellType::tri3:
-      return tri3;
-    case cell::CellType::tri6:
-      return tri6;
-    case cell::CellType::quad8:
-      return quad8;
-    case cell::CellType::quad9:
-      return quad9;
-    default:
-      return quad4;
-  }
-}
-
-std::size_t corners_of(const Piece& piece) { return piece[3] < 0 ? 3 : 4; }
-
-/// Middle of a piece in the facet's coordinates: where the search for a place starts.
-Vec2 middle_of(cell::CellType type, const Piece& piece) {
-  Vec2 sum = Vec2::Zero();
-  for (std::size_t k = 0; k < corners_of(piece); ++k) sum += cell::area_node(type, piece[k]);
-  return sum / static_cast<double>(corners_of(piece));
-}
 
 // ---- the plane ----------------------------------------------------------------------------------
 
@@ -105,11 +72,21 @@ Points2 flat(const Plane& plane, const Points3& x, int count) {
 
 // ---- places on the facets -----------------------------------------------------------------------
 
-/// A facet in the plane.
+/// A facet in the plane; of a first-order one also u = c_0 + c_1 xi + c_2 eta + c_3 xi eta.
 struct Flat {
   cell::CellType type = cell::CellType::quad4;
   int count = 0;
   Points2 u;
+  std::array<Vec2, 4> c;
+
+  void set(const Points2& points) {
+    u = points;
+    if (type == cell::CellType::tri3)
+      c = {u[0], u[1] - u[0], u[2] - u[0], Vec2::Zero()};
+    else
+      c = {0.25 * (u[0] + u[1] + u[2] + u[3]), 0.25 * (u[1] + u[2] - u[0] - u[3]),
+           0.25 * (u[2] + u[3] - u[0] - u[1]), 0.25 * (u[0] + u[2] - u[1] - u[3])};
+  }
 };
 
 /// A place on a facet with the first derivatives of its plane coordinates.
@@ -126,17 +103,30 @@ void set_place(const Flat& facet, const Vec2& xi, int order, Place& out) {
       out.jacobian.col(static_cast<I>(i)) += out.shape.n[1 + i][k] * facet.u[k];
 }
 
+/// What is missing from the place at xi to point `p`, and the derivatives of the place.
+Vec2 miss_at(const Flat& facet, const Vec2& p, const Vec2& xi, Place& work, Mat<2, 2>& jacobian) {
+  if (cell::is_linear_facet(facet.type)) {
+    const std::array<Vec2, 4>& c = facet.c;
+    jacobian << c[1] + xi.y() * c[3], c[2] + xi.x() * c[3];
+    return p - c[0] - xi.x() * c[1] - xi.y() * (c[2] + xi.x() * c[3]);
+  }
+  set_place(facet, xi, 1, work);
+  jacobian = work.jacobian;
+  Vec2 miss = p;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(facet.count); ++k)
+    miss -= work.shape.n[0][k] * facet.u[k];
+  return miss;
+}
+
 /// The place over point `p` of the plane: Newton's method from `start`.
 bool find_place(const Flat& facet, const Vec2& p, const Vec2& start, Place& out) {
   Vec2 xi = start;
   for (int i = 0; i < 30; ++i) {
-    set_place(facet, xi, 1, out);
-    const double det = out.jacobian.determinant();
+    Mat<2, 2> jacobian;
+    const Vec2 miss = miss_at(facet, p, xi, out, jacobian);
+    const double det = jacobian.determinant();
     if (!(std::abs(det) > 0)) return false;
-    Vec2 miss = p;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(facet.count); ++k)
-      miss -= out.shape.n[0][k] * facet.u[k];
-    const Vec2 step = out.jacobian.inverse() * miss;
+    const Vec2 step = jacobian.inverse() * miss;
     xi += step;
     if (!xi.allFinite() || xi.cwiseAbs().maxCoeff() > 10) return false;
     if (step.cwiseAbs().maxCoeff() > 1e-13) continue;
@@ -247,8 +237,8 @@ void add_rates(Work& w, const Place& s, const Place& m, double weight, const Row
           weight * nj * t[1][at(k)], weight * nj * t[2][at(k)];
     }
   }
-  w.de.noalias() += of_e * rates.topRows<3>();
-  w.df.noalias() += of_f * rates;
+  w.de += of_e.lazyProduct(rates.topRows<3>());
+  w.df += of_f.lazyProduct(rates);
 }
 
 /// Of the current area also by the positions in space.
@@ -367,14 +357,22 @@ bool add_polygon(Work& w, const Polygon<T>& polygon, const Corners& corners) {
   return true;
 }
 
+/// Common part of a piece of the slave and one of the master; empty where they do not face each
+/// other.
 template <class T>
-bool add_pieces(Work& w, const Piece& slave, const Piece& master) {
+Polygon<T> overlap_of(const Work& w, const Piece& slave, const Piece& master) {
   const Polygon<T> own = polygon<T>(w.slave, slave, false),
                    other = polygon<T>(w.master, master, true);
-  if (!(area_of(other) > 0)) return true;  // they do not face each other
+  if (!(area_of(other) > 0)) return {};
   constexpr double rounding = 1e-10;
-  const double size = std::sqrt(area_of(own));
-  const Polygon<T> common = common_part(other, own, rounding * size);
+  return common_part(other, own, rounding * std::sqrt(area_of(own)));
+}
+
+template <class T>
+bool add_pieces(Work& w, const Piece& slave, const Piece& master) {
+  // Most facets that are near do not overlap, and derivatives cost many times the numbers.
+  if (w.derivatives && overlap_of<double>(w, slave, master).count < 3) return true;
+  const Polygon<T> common = overlap_of<T>(w, slave, master);
   if (common.count < 3) return true;
   Corners corners;
   corners.column.fill(-1);
@@ -408,8 +406,8 @@ void to_space(const Work& w, const Piece& piece, const FlatRates& flat_rates, Sh
 
 bool add_slave_piece(Work& w, const Piece& piece, std::span<const Piece> master, double& whole) {
   if (!plane_of(piece, w.slave_x, w.plane)) return true;
-  w.slave.u = flat(w.plane, w.slave_x, w.slave.count);
-  w.master.u = flat(w.plane, w.master_x, w.master.count);
+  w.slave.set(flat(w.plane, w.slave_x, w.slave.count));
+  w.master.set(flat(w.plane, w.master_x, w.master.count));
   whole += area_of(polygon<double>(w.slave, piece, false));
   if (w.derivatives) {
     w.de.setZero(w.slave.count * w.slave.count, w.columns());

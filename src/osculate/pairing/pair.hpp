@@ -179,12 +179,14 @@ struct ContactBlock {
   Eigen::VectorXd branch_force;  ///< of the linearised branch; equals `force` unless `branched`
   bool branched = false;
   Eigen::MatrixXd tangent;  ///< empty: nothing but `path`
+  bool elsewhere = false;   ///< the tangent is in that of a former block with the same nodes
   Eigen::Matrix<double, Eigen::Dynamic, Dim> path_rows;
   Eigen::VectorXd area_rows;
   PathBuffers<Dim> behind;
   std::vector<NodeGradient<Dim>> area;
   ConstraintBlock<Dim> constraint;  ///< of a point whose multipliers are unknowns, open or not
   [[nodiscard]] bool active() const { return count > 0; }
+  [[nodiscard]] bool has_tangent() const { return tangent.size() > 0 && !elsewhere; }
   [[nodiscard]] const std::vector<NodeMatrix<Dim>>& path() const { return behind.path; }
   /// Room for blocks of so many nodes.
   void reserve(int most) {
@@ -193,9 +195,12 @@ struct ContactBlock {
     nodes.resize(static_cast<std::size_t>(most));
     force.resize(size);
     branch_force.resize(size);
-    tangent.resize(size, size);
     path_rows.resize(size, Dim);
     area_rows.resize(size);
+  }
+  /// Likewise, of a block that has a tangent.
+  void reserve_tangent(int most) {
+    if (tangent.rows() < Dim * most) tangent.resize(Dim * most, Dim * most);
   }
 };
 

@@ -14,6 +14,7 @@ template <int Dim>
 void clear_block(ContactBlock<Dim>& block) {
   block.count = 0;
   block.branched = false;
+  block.elsewhere = false;
   block.behind.path.clear();
   block.area.clear();
   block.constraint.on = false;
@@ -51,25 +52,87 @@ void scatter_path(std::span<const Mat<Dim, Dim>> s, const WeightOf& w, double ar
   }
 }
 
-/// Sets the first Dim * count rows and columns of `tangent`.
+/// Sets the first Dim * count rows and columns of `tangent`, or adds to them.
+///
+/// Formula    K = sum_b rows_b w_b ,  rows_b = area sum_a w_a m[a][b]: column by column
 template <int Dim, class WeightOf>
 void scatter_tangent(const contact::PointTerms<Dim>& terms, int count, const WeightOf& w,
-                     double area, Eigen::MatrixXd& tangent) {
-  for (int k = 0; k < count; ++k) {
-    std::array<Mat<Dim, Dim>, contact::slots<Dim>> row;
+                     double area, Eigen::MatrixXd& tangent, bool add = false) {
+  constexpr int most = Dim * (max_slave_nodes<Dim> + 2 * max_master_nodes<Dim>);
+  constexpr int width = Dim * static_cast<int>(contact::slots<Dim>);
+  const Eigen::Index n = Dim * count;
+  Eigen::Matrix<double, Eigen::Dynamic, width, 0, most, width> rows(n, width);
+  for (int k = 0; k < count; ++k)
     for (std::size_t b = 0; b < terms.used; ++b) {
-      row[b].setZero();
+      Mat<Dim, Dim> sum = Mat<Dim, Dim>::Zero();
       for (std::size_t a = 0; a < terms.used; ++a) {
         const double weight = w(a, k);
-        if (weight != 0.0) row[b] += (area * weight) * terms.m[a][b];
+        if (weight != 0.0) sum += (area * weight) * terms.m[a][b];
       }
+      rows.template block<Dim, Dim>(Dim * k, Dim * static_cast<Eigen::Index>(b)) = sum;
     }
-    for (int l = 0; l < count; ++l) {
-      Mat<Dim, Dim> sum = Mat<Dim, Dim>::Zero();
-      for (std::size_t b = 0; b < terms.used; ++b) sum += w(b, l) * row[b];
-      tangent.template block<Dim, Dim>(Dim * k, Dim * l) = sum;
+  if (!add) tangent.topLeftCorner(n, n).setZero();
+  for (int l = 0; l < count; ++l)
+    for (int d = 0; d < Dim; ++d) {
+      auto column = tangent.col(Dim * l + d).head(n);
+      const auto part = [&](std::size_t b) {
+        return w(b, l) * rows.col(Dim * static_cast<Eigen::Index>(b) + d);
+      };
+      bool moves = false;  // with the place on the master: not of a slave's node
+      for (std::size_t b = 1; b < terms.used; ++b) moves = moves || w(b, l) != 0.0;
+      if (!moves) {
+        column += part(0);
+        continue;
+      }
+      if constexpr (Dim == 3)
+        column += part(0) + part(1) + part(2);
+      else
+        column += part(0) + part(1);
+      for (std::size_t b = Dim; b < terms.used; ++b) column += part(b);
     }
+}
+
+/// A path over the block's own master nodes, as that of a point which is on the facet of its
+/// history, goes into the tangent.
+template <int Dim>
+void fold_path(ContactBlock<Dim>& block, Eigen::MatrixXd& tangent) {
+  std::vector<NodeMatrix<Dim>>& path = block.behind.path;
+  const auto first = static_cast<std::size_t>(block.slave_count);
+  if (path.size() + first != static_cast<std::size_t>(block.count)) return;
+  for (std::size_t k = 0; k < path.size(); ++k)
+    if (path[k].node != block.nodes[first + k]) return;
+  const Eigen::Index n = Dim * block.count;
+  const auto rows = block.path_rows.topRows(n);
+  Eigen::Index to = Dim * static_cast<Eigen::Index>(first);
+  for (const NodeMatrix<Dim>& g : path)
+    for (Eigen::Index d = 0; d < Dim; ++d) {
+      auto column = tangent.col(to++).head(n);
+      if constexpr (Dim == 3)
+        column +=
+            g.value(0, d) * rows.col(0) + g.value(1, d) * rows.col(1) + g.value(2, d) * rows.col(2);
+      else
+        column += g.value(0, d) * rows.col(0) + g.value(1, d) * rows.col(1);
+    }
+  path.clear();
+}
+
+/// The block that holds the tangent of block i: the first one over the same nodes among those of
+/// its slave facet, whose points stand behind each other.
+template <int Dim>
+[[nodiscard]] ContactBlock<Dim>& tangent_holder(std::size_t i,
+                                                std::vector<ContactBlock<Dim>>& blocks) {
+  constexpr std::size_t farthest = 16;
+  ContactBlock<Dim>& own = blocks[i];
+  const auto same = [&](const ContactBlock<Dim>& other, int count) {
+    return std::equal(own.nodes.begin(), own.nodes.begin() + count, other.nodes.begin());
+  };
+  for (std::size_t j = i; j-- > 0 && i - j <= farthest;) {
+    ContactBlock<Dim>& other = blocks[j];
+    if (!other.active()) continue;
+    if (other.slave_count != own.slave_count || !same(other, own.slave_count)) break;
+    if (!other.elsewhere && other.count == own.count && same(other, own.count)) return other;
   }
+  return own;
 }
 
 /// Forces of a sample in contact, and those of the branch that it is linearised in; of an open one

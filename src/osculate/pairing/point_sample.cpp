@@ -123,8 +123,14 @@ void set_block(const PairDefinition<Dim>& pair, const SurfaceSample<Dim>& point,
     set_constraint_values(constraint_weight(pair, i), r, k.frame, context, block.constraint);
   if (!with_tangent) return;
   if (block.constraint.on) set_constraint_tangent(pair, i, k, r.traction, w, weight, block);
-  scatter_tangent<Dim>(terms, block.count, w, weight, block.tangent);
-  scatter_path<Dim>(terms.s, w, weight, block);
+  ContactBlock<Dim>& holder = tangent_holder(i, out.blocks);
+  block.elsewhere = &holder != &block;
+  holder.reserve_tangent(out.block_nodes);
+  scatter_tangent<Dim>(terms, block.count, w, weight, holder.tangent, block.elsewhere);
+  if (!block.path().empty()) {
+    scatter_path<Dim>(terms.s, w, weight, block);
+    fold_path(block, holder.tangent);
+  }
   if (!pair.tangent.consistent || pair.weight != Weight::current_area || !point.slave) return;
   add_area_gradient<Dim>(pair, out, i, k.normal, block.area);
   scatter_forces<Dim>(terms.f, block.count, w, pass_factor(pair), block.area_rows);

@@ -395,6 +395,7 @@ void evaluate_reentrant_edge(const PairDefinition<3>& pair, Points<3> x,
   block.constraint.shear = area * t.constraint;
   block.constraint.branch_shear = area * t.branch_constraint;
   block.reserve(out.block_nodes);
+  block.reserve_tangent(out.block_nodes);
   const EdgeWeights w = set_weights(pair, place, i, block);
   const std::array<Vec3, 2> lawful{t.lawful, t.f[1]};
   set_forces<3>(

@@ -245,6 +245,7 @@ void evaluate_reentrant_vertex(const PairDefinition<2>& pair, Points<2> x,
   set_forces<2>(
       r, {}, f, [&](const auto&) { return f; }, w, result.weight, block);
   if (!with_tangent) return;
+  block.reserve_tangent(out.block_nodes);
   scatter_tangent<2>(terms, block.count, w, result.weight, block.tangent);
   block.path_rows.topRows(2 * block.count).setZero();
   set_constraint_tangent(spring, area, result.weight, w, block);

@@ -99,10 +99,10 @@ cell::FacetShape difference_shape(const SurfaceFacet& facet, const Vec2& xi) {
 
 }  // namespace
 
-cell::FacetShape facet_shape(const SurfaceFacet& facet, const Vec2& xi) {
+cell::FacetShape facet_shape(const SurfaceFacet& facet, const Vec2& xi, int order) {
   if (facet.difference[0] > 0) return difference_shape(facet, xi);
-  if (facet.patch) return gregory_shape(*facet.patch, facet.count, xi);
-  if (!facet.shape) return cell::facet_shape(facet.type, xi);
+  if (facet.patch) return gregory_shape(*facet.patch, facet.count, xi, order);
+  if (!facet.shape) return cell::facet_shape(facet.type, xi, order);
   const geometry::SurfaceJet jet = geometry::jet(*facet.shape, xi);
   const std::array<const Vec3*, 10> d{&jet.r,     &jet.r1[0], &jet.r1[1], &jet.r2[0], &jet.r2[1],
                                       &jet.r2[2], &jet.r3[0], &jet.r3[1], &jet.r3[2], &jet.r3[3]};
@@ -133,11 +133,9 @@ Vec3 facet_point(const SurfaceFacet& facet, const Vec2& xi, std::span<const Vec3
   const auto node = [&](std::size_t k) -> const Vec3& {
     return x[static_cast<std::size_t>(facet.nodes[k])];
   };
-  const bool plain = is_plain(facet);
-  if (plain && cell::is_linear_facet(facet.type))
+  if (is_plain(facet) && cell::is_linear_facet(facet.type))
     return cell::linear_facet(facet.type, node, xi)[0];
-  const cell::FacetShape shape =
-      plain ? cell::facet_shape(facet.type, xi, 0) : facet_shape(facet, xi);
+  const cell::FacetShape shape = facet_shape(facet, xi, 0);
   Vec3 point = Vec3::Zero();
   for (std::size_t k = 0; k < static_cast<std::size_t>(shape.count); ++k)
     point += shape.n[0][k] * node(k);
@@ -148,15 +146,13 @@ Vec3 facet_normal(const SurfaceFacet& facet, const Vec2& xi, std::span<const Vec
   const auto node = [&](std::size_t k) -> const Vec3& {
     return x[static_cast<std::size_t>(facet.nodes[k])];
   };
-  const bool plain = is_plain(facet);
   Vec3 r1 = Vec3::Zero(), r2 = Vec3::Zero();
-  if (plain && cell::is_linear_facet(facet.type)) {
+  if (is_plain(facet) && cell::is_linear_facet(facet.type)) {
     const cell::FacetDerivatives r = cell::linear_facet(facet.type, node, xi);
     r1 = r[1];
     r2 = r[2];
   } else {
-    const cell::FacetShape shape =
-        plain ? cell::facet_shape(facet.type, xi, 1) : facet_shape(facet, xi);
+    const cell::FacetShape shape = facet_shape(facet, xi, 1);
     for (std::size_t k = 0; k < static_cast<std::size_t>(shape.count); ++k) {
       r1 += shape.n[1][k] * node(k);
       r2 += shape.n[2][k] * node(k);

@@ -49,7 +49,9 @@ void connect(FacetSurface& surface);
 /// Both corners of edge k (local numbers).
 [[nodiscard]] std::array<int, 2> edge_corners(const SurfaceFacet& facet, int edge);
 
-[[nodiscard]] cell::FacetShape facet_shape(const SurfaceFacet& facet, const Vec2& xi);
+/// `order`: highest derivative that is asked for; those above may be filled in, or 0.
+[[nodiscard]] cell::FacetShape facet_shape(const SurfaceFacet& facet, const Vec2& xi,
+                                           int order = 3);
 [[nodiscard]] geometry::SurfaceJet facet_jet(const SurfaceFacet& facet,
                                              const cell::FacetShape& shape,
                                              std::span<const Vec3> x);

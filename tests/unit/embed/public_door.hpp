@@ -180,7 +180,7 @@ Sums<Dim> sums_of(const pairing::PairEvaluation<Dim>& e, Eigen::Index size) {
       const auto at = static_cast<Eigen::Index>(i);
       s.force[row[i]] += block.force[at];
       s.branch[row[i]] += block.branched ? block.branch_force[at] : block.force[at];
-      for (std::size_t j = 0; block.tangent.size() > 0 && j < row.size(); ++j)
+      for (std::size_t j = 0; block.has_tangent() && j < row.size(); ++j)
         s.tangent[row[i]] += block.tangent(at, static_cast<Eigen::Index>(j)) * way(row[j]);
       for (const auto& g : block.path())
         for (int d = 0; d < Dim; ++d)

@@ -49,7 +49,7 @@ Eigen::MatrixXd assembled_tangent(const pairing::PairEvaluation<Dim>& e, Eigen::
   for (const pairing::ContactBlock<Dim>& b : e.blocks)
     for (int i = 0; i < b.count; ++i) {
       const Eigen::Index row = Dim * b.nodes[static_cast<std::size_t>(i)];
-      for (int j = 0; b.tangent.size() > 0 && j < b.count; ++j)
+      for (int j = 0; b.has_tangent() && j < b.count; ++j)
         k.block<Dim, Dim>(row, Dim * b.nodes[static_cast<std::size_t>(j)]) +=
             b.tangent.template block<Dim, Dim>(Dim * i, Dim * j);
       for (const pairing::NodeMatrix<Dim>& g : b.path())

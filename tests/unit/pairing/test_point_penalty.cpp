@@ -3,6 +3,7 @@
 #include "osculate/pairing/point_penalty.hpp"
 
 #include <gtest/gtest.h>
+#include <algorithm>
 
 #include "edge_sample.hpp"
 #include "expect_derivative.hpp"
@@ -103,11 +104,15 @@ std::vector<Case<Dim>> with_enforcement(const Case<Dim>& c) {
   return all;
 }
 
-/// Powers of two: products with them are exact.
+/// Powers of two: products with them are exact. `by_facet`: one for all points of the same nodes,
+/// whose tangents are in one block.
 template <int Dim>
-void give_factors(pairing::PairDefinition<Dim>& pair) {
-  for (std::size_t i = 0; i < pair.slave.points.size(); ++i) {
-    const int k = static_cast<int>(i % 7) - 3;
+void give_factors(pairing::PairDefinition<Dim>& pair, bool by_facet = false) {
+  const auto& points = pair.slave.points;
+  std::size_t number = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (i > 0 && !(by_facet && points[i].nodes == points[i - 1].nodes)) ++number;
+    const int k = static_cast<int>(number % 7) - 3;
     pair.relative_stiffness.push_back({std::exp2(k), std::exp2(2 - k)});
   }
 }
@@ -144,7 +149,7 @@ void expect_same_constraint(const pairing::ConstraintBlock<Dim>& a,
 
 template <int Dim>
 void expect_same_point(const pairing::PairEvaluation<Dim>& a, const pairing::PairEvaluation<Dim>& b,
-                       std::size_t i) {
+                       std::size_t i, bool tangents) {
   const pairing::PointResult<Dim>&p = a.points[i], &q = b.points[i];
   EXPECT_EQ(p.status, q.status);
   EXPECT_EQ(p.normal_traction, q.normal_traction);
@@ -157,7 +162,8 @@ void expect_same_point(const pairing::PairEvaluation<Dim>& a, const pairing::Pai
   ASSERT_EQ(k.count, l.count);
   const int rows = Dim * k.count;
   EXPECT_EQ(k.force.head(rows), l.force.head(rows));
-  if (k.tangent.size() > 0) {
+  ASSERT_EQ(k.has_tangent(), l.has_tangent());
+  if (tangents && k.has_tangent()) {
     EXPECT_EQ(k.tangent.topLeftCorner(rows, rows), l.tangent.topLeftCorner(rows, rows));
   }
   ASSERT_EQ(k.path().size(), l.path().size());
@@ -166,8 +172,8 @@ void expect_same_point(const pairing::PairEvaluation<Dim>& a, const pairing::Pai
 }
 
 template <int Dim>
-void expect_points_like_pairs(Case<Dim> c) {
-  give_factors(c.pair);
+void expect_points_like_pairs(Case<Dim> c, bool by_facet) {
+  give_factors(c.pair, by_facet);
   const Eigen::VectorXd v = flatten(c.x);
   const pairing::PairEvaluation<Dim> all = c.evaluation(v, true);
   int closed = 0;
@@ -175,10 +181,38 @@ void expect_points_like_pairs(Case<Dim> c) {
     SCOPED_TRACE(c.name + ", point " + std::to_string(i));
     Case<Dim> one = c;
     one.pair = pair_like(c.pair, i);
-    expect_same_point(all, one.evaluation(v, true), i);
+    expect_same_point(all, one.evaluation(v, true), i, by_facet);
     closed += all.points[i].status != Status::open ? 1 : 0;
   }
   EXPECT_GT(closed, 1) << c.name;
+}
+template <int Dim>
+void expect_points_like_pairs(const Case<Dim>& c) {
+  for (const bool by_facet : {false, true}) expect_points_like_pairs(c, by_facet);
+}
+
+/// Points of a slave facet over one facet of the master have the same nodes, and one tangent.
+TEST(PointBlock, PointsOfTheSameNodesHaveOneTangent) {
+  int shared = 0;
+  for (const Case<3>& c : space_cases()) {
+    if (pairing::by_mortar(c.pair)) continue;
+    const pairing::PairEvaluation<3> e = c.evaluation(flatten(c.x), true);
+    for (std::size_t i = 0; i < c.pair.slave.points.size(); ++i) {
+      const pairing::ContactBlock<3>& block = e.blocks[i];
+      if (!block.active()) continue;
+      const auto same = [&](const pairing::ContactBlock<3>& other) {
+        return other.count == block.count &&
+               std::equal(block.nodes.begin(), block.nodes.begin() + block.count,
+                          other.nodes.begin());
+      };
+      int holders = 0;
+      for (std::size_t j = 0; j < i; ++j)
+        holders += e.blocks[j].active() && e.blocks[j].has_tangent() && same(e.blocks[j]) ? 1 : 0;
+      EXPECT_EQ(block.has_tangent(), holders == 0) << c.name << ", point " << i;
+      shared += block.elsewhere ? 1 : 0;
+    }
+  }
+  EXPECT_GT(shared, 0);
 }
 
 TEST(PointPenalty, APointIsThatOfAPairWithItsPenalty) {

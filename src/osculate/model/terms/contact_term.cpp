@@ -26,7 +26,7 @@ void add_block(const pairing::ContactBlock<Dim>& block, Assembly<Dim>& to) {
   }
   if (block.branched) into.branched = true;
   if (!to.with_tangent) return;
-  if (block.tangent.size() > 0) to.add_stiffness(d, block.tangent);
+  if (block.has_tangent()) to.add_stiffness(d, block.tangent);
   const auto rows = static_cast<Eigen::Index>(d.size());
   if (!block.path().empty()) {  // of the nodes behind a contact point
     to.begin_path();
