@@ -107,7 +107,7 @@ class Compare(unittest.TestCase):
             self.assertIn(f"only {self.a} has the results c", output)
         for output in with_lines("results.pvd", lambda line: "DataSet" not in line):
             self.assertIn(f"only {self.a} has the results ", output)
-        for output in with_lines("history.csv", lambda line: not line.startswith("press,2")):
+        for output in with_lines("history.csv", lambda line: not line.startswith("1,2,")):
             self.assertIn(f"only {self.a} goes on after time 0.5", output)
 
     def test_a_missing_number_is_no_agreement(self):

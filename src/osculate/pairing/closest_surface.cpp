@@ -95,16 +95,12 @@ double release_room(std::span<const Vec3> nodes) {
   return 4 * end_extension * std::sqrt(longest);
 }
 
-/// The foot on a smooth patch. The search begins where the point was, on another patch at the foot
-/// on the facet through its corners.
+/// The foot on a smooth patch. The search begins at the foot on the facet through its corners.
 FacetFoot foot_on_patch(const FacetSurface& surface, const SurfaceFacet& facet,
                         std::span<const Vec3> x, const ProjectionQuery<3>& query) {
-  const bool was_here =
-      query.history >= 0 && &facet == &surface.facets[static_cast<std::size_t>(query.history)];
   FacetNodes buffer;
   const Vec2 start =
-      was_here ? query.history_xi
-               : projection::closest_point(facet.type, nodes_of(facet, x, buffer), query.point).xi;
+      projection::closest_point(facet.type, nodes_of(facet, x, buffer), query.point).xi;
   const GregoryPoints points = patch_points(facet, x);
   const PatchQuery on_patch{facet.type, points, query.point};
   FacetFoot foot = closest_on_patch(on_patch, start);

@@ -229,7 +229,9 @@ void set_facet_tangent(const MortarFacet<Dim>& matrices, std::span<const Index> 
   block.count = static_cast<int>(block.nodes.size());
   block.slave_count = 0;
   block.branched = false;
+  block.elsewhere = false;
   block.behind.path.clear();
+  block.area.clear();
   const auto size = Dim * static_cast<Eigen::Index>(block.nodes.size());
   const Eigen::Index n = matrices.d.size();
   grow(block.force, size);

@@ -3,6 +3,7 @@
 // sources of this layer. Weights are functions w(slot, node of the block): how the sample depends
 // on its nodes (contact::PointTerms).
 #include <algorithm>
+#include <array>
 #include <span>
 
 #include "osculate/pairing/response.hpp"
@@ -52,29 +53,26 @@ void scatter_path(std::span<const Mat<Dim, Dim>> s, const WeightOf& w, double ar
   }
 }
 
-/// Sets the first Dim * count rows and columns of `tangent`, or adds to them.
-///
-/// Formula    K = sum_b rows_b w_b ,  rows_b = area sum_a w_a m[a][b]: column by column
-template <int Dim, class WeightOf>
-void scatter_tangent(const contact::PointTerms<Dim>& terms, int count, const WeightOf& w,
-                     double area, Eigen::MatrixXd& tangent, bool add = false) {
-  constexpr int most = Dim * (max_slave_nodes<Dim> + 2 * max_master_nodes<Dim>);
+/// Adds to the rows of some of the nodes, at most `most` of them.
+template <int Dim, int most, class WeightOf>
+void scatter_rows(const contact::PointTerms<Dim>& terms, std::array<int, 2> nodes,
+                  const WeightOf& w, double area, Eigen::Ref<Eigen::MatrixXd> tangent) {
   constexpr int width = Dim * static_cast<int>(contact::slots<Dim>);
-  const Eigen::Index n = Dim * count;
-  Eigen::Matrix<double, Eigen::Dynamic, width, 0, most, width> rows(n, width);
-  for (int k = 0; k < count; ++k)
+  const Eigen::Index n = Dim * (nodes[1] - nodes[0]);
+  Eigen::Matrix<double, Eigen::Dynamic, width, 0, Dim * most, width> rows(n, width);
+  for (int k = nodes[0]; k < nodes[1]; ++k)
     for (std::size_t b = 0; b < terms.used; ++b) {
       Mat<Dim, Dim> sum = Mat<Dim, Dim>::Zero();
       for (std::size_t a = 0; a < terms.used; ++a) {
         const double weight = w(a, k);
         if (weight != 0.0) sum += (area * weight) * terms.m[a][b];
       }
-      rows.template block<Dim, Dim>(Dim * k, Dim * static_cast<Eigen::Index>(b)) = sum;
+      rows.template block<Dim, Dim>(Dim * (k - nodes[0]), Dim * static_cast<Eigen::Index>(b)) = sum;
     }
-  if (!add) tangent.topLeftCorner(n, n).setZero();
-  for (int l = 0; l < count; ++l)
+  const int columns = static_cast<int>(tangent.cols()) / Dim;
+  for (int l = 0; l < columns; ++l)
     for (int d = 0; d < Dim; ++d) {
-      auto column = tangent.col(Dim * l + d).head(n);
+      auto column = tangent.col(Dim * l + d).segment(Dim * nodes[0], n);
       const auto part = [&](std::size_t b) {
         return w(b, l) * rows.col(Dim * static_cast<Eigen::Index>(b) + d);
       };
@@ -90,6 +88,20 @@ void scatter_tangent(const contact::PointTerms<Dim>& terms, int count, const Wei
         column += part(0) + part(1);
       for (std::size_t b = Dim; b < terms.used; ++b) column += part(b);
     }
+}
+
+/// Sets the first Dim * count rows and columns of `tangent`, or adds to them. Blocks of ties may
+/// have any number of nodes: their rows come in bands.
+///
+/// Formula    K = sum_b rows_b w_b ,  rows_b = area sum_a w_a m[a][b]: column by column
+template <int Dim, class WeightOf>
+void scatter_tangent(const contact::PointTerms<Dim>& terms, int count, const WeightOf& w,
+                     double area, Eigen::MatrixXd& tangent, bool add = false) {
+  constexpr int band = max_slave_nodes<Dim> + 2 * max_master_nodes<Dim>;
+  if (!add) tangent.topLeftCorner(Dim * count, Dim * count).setZero();
+  for (int first = 0; first < count; first += band)
+    scatter_rows<Dim, band>(terms, {first, std::min(count, first + band)}, w, area,
+                            tangent.topLeftCorner(Dim * count, Dim * count));
 }
 
 /// A path over the block's own master nodes, as that of a point which is on the facet of its

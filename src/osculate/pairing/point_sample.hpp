@@ -64,7 +64,6 @@ template <int Dim>
   if (work.normals[i].squaredNorm() > 0) query.slave_normal = work.normals[i];
   query.history = history.facet;
   query.history_feature = history.feature;
-  query.history_xi = history.xi;
   query.kept = kept;
   NodeFilter<Dim> rules;
   if (pair.filter.limited()) {

@@ -33,7 +33,6 @@ struct ProjectionQuery {
   std::optional<Vec<Dim>> slave_normal;  ///< facets facing the same way are not candidates
   Index history = -1;                    ///< facet; equidistant: the side of the history wins
   projection::Feature history_feature = projection::Feature::none;
-  Vec<Dim - 1> history_xi = Vec<Dim - 1>::Zero();  ///< where the search on a patch begins
   /// Facet that a point keeps which went back and forth over its border (ActiveBranch::kept): it
   /// is continued by `end_extension` there; -1: the nearest one.
   Index kept = -1;

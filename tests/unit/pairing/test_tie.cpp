@@ -109,6 +109,17 @@ TEST(Tie, OfMortar) {
     expect_tie(tied(make_mortar3({.slave = type, .bend = 0.01}), true, 0.3), "space");
 }
 
+// A node of the slave lies over any number of facets then.
+TEST(Tie, OfMortarOverAFineMaster) {
+  expect_tie(tied(make_mortar2({.master_facets = 80}), true, 0.3), "plane");
+  const ContactSample<3> space = tied(make_mortar3({.master_cells = 16}), true, 0.3);
+  std::size_t most = 0;
+  for (const auto& tie : std::get<pairing::Tied<3>>(space.pair.separation).ties)
+    most = std::max(most, tie.nodes.size());
+  ASSERT_GT(most, 100u);
+  expect_tie(space, "space");
+}
+
 /// The whole slave moved by `by`.
 template <int Dim>
 Eigen::VectorXd lifted(const ContactSample<Dim>& s, const Vec<Dim>& by) {
