@@ -135,6 +135,54 @@ class Runs(unittest.TestCase):
         with self.assertRaises((OSError, osculate.InputError)):
             osculate.run(block(), self.path("file") / "below")
 
+    def test_limits_have_ranges(self):
+        for change in ({"threads": 0}, {"threads": -1}, {"threads": 100000}, {"threads": 1.5}, {"threads": True},
+                       {"max_iterations": -1}, {"max_iterations": 2.5}, {"max_minutes": np.nan}, {"max_minutes": -1},
+                       {"max_minutes": "long"}):
+            name = next(iter(change))
+            with self.subTest(change=change), self.assertRaisesRegex(osculate.InputError, f"^{name}: expected"):
+                osculate.run(block(), self.path("none"), **change)
+        self.assertFalse(self.path("none").exists())
+        with self.assertRaises(osculate.AnalysisFailed) as raised:
+            osculate.run(block(), max_iterations=np.int64(2))
+        self.assertIn("iterations that max_iterations allows", str(raised.exception))
+        self.assertEqual(raised.exception.result.message, str(raised.exception))
+        with self.assertRaisesRegex(osculate.InputError, "run with restart=False"):
+            osculate.run(block(), restart=True)
+
+    def test_results_of_a_run_that_was_killed(self):
+        folder = self.path("results")
+        whole = osculate.run(block(), folder)
+        (folder / "summary.json").unlink()
+        rows = (folder / "history.csv").read_bytes()
+        (folder / "history.csv").write_bytes(rows[:-5])
+        result = osculate.Result(folder)
+        self.assertEqual((result.status, result.summary), ("unfinished", {}))
+        np.testing.assert_array_equal(result.history["time"], whole.history["time"][:-1])
+        np.testing.assert_array_equal(result.increments[-1]["U"], whole.increments[-2]["U"])
+
+    def test_fields_of_files_are_read_only_and_those_that_are_told_are_not(self):
+        told = []
+        for compress in (False, True):
+            packed = block(output={**block()["output"], "compress": compress})
+            result = osculate.run(packed, on_increment=lambda state: told.append(state["U"]))
+            self.assertFalse(result.increments[-1]["U"].flags.writeable)
+            self.assertTrue(result.history["time"].flags.writeable)
+        self.assertTrue(told[0].flags.writeable)
+
+    def test_broken_files_are_named(self):
+        folder = self.path("results")
+        osculate.run(block(), folder)
+        for name in ("bodies_00002.vtu", "results.pvd", "history.csv", "summary.json"):
+            kept = (folder / name).read_bytes()
+            for size in (len(kept) // 2, len(kept) // 8):
+                cut = kept + b"1,2\n" if name == "history.csv" else kept[:size]
+                (folder / name).write_bytes(cut)
+                with self.subTest(name=name, size=size), self.assertRaisesRegex(osculate.InputError, name):
+                    osculate.Result(folder).increments[2]["U"]
+            (folder / name).write_bytes(kept)
+        osculate.Result(folder).increments[2]["U"]
+
     def test_check_says_what_the_program_says(self):
         def without_memory(text):
             return [line for line in text.splitlines() if not line.startswith("Memory")]
@@ -365,6 +413,28 @@ class Meshes(unittest.TestCase):
                 osculate.run(self.model(), mesh={**self.mesh(), **change})
         with self.assertRaisesRegex(osculate.InputError, "unknown set 'top'"):
             osculate.run(self.model(), mesh={**self.mesh(), "point_sets": {}})
+
+    def test_the_mesh_beside_a_folder(self):
+        with tempfile.TemporaryDirectory() as top:
+            folder = pathlib.Path(top, "new", "results")
+            file = pathlib.Path(top, "new", "results.msh")
+            wrong = {**self.model(), "contac": 1}
+            for model, mesh in ((wrong, self.mesh()), (self.model(), {**self.mesh(), "points": [1]})):
+                with self.assertRaises(osculate.InputError):
+                    osculate.run(model, folder, mesh=mesh)
+                self.assertEqual(os.listdir(top), [])
+            self.same(osculate.run(self.model(), folder, mesh=self.mesh()))
+            kept = file.read_bytes()
+            self.assertEqual(sorted(os.listdir(file.parent)), ["results", "results.msh"])
+            with self.assertRaises(osculate.InputError):
+                osculate.run(wrong, folder, mesh={**self.mesh(), "points": 2 * self.points})
+            self.assertEqual(file.read_bytes(), kept)
+            osculate.run(self.model(), folder, mesh={**self.mesh(), "points": 2 * self.points})
+            self.assertNotEqual(file.read_bytes(), kept)
+            with self.assertRaises(osculate.InputError):  # results of another mesh
+                osculate.run(self.model(), folder, mesh=self.mesh(), restart=True)
+            self.assertNotEqual(file.read_bytes(), kept)
+            self.assertEqual(sorted(os.listdir(file.parent)), ["results", "results.msh"])
 
     def test_sets_may_be_masks(self):
         mesh = self.mesh()
