@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <charconv>
 #include <cmath>
 
@@ -91,6 +92,18 @@ class Converter {
 };
 
 }  // namespace
+
+std::string in_python(std::string text) {
+  constexpr std::array<std::array<std::string_view, 2>, 4> words{
+      {{"--max-iterations", "max_iterations"},
+       {"--max-minutes", "max_minutes"},
+       {"--until:", "until:"},
+       {"run without --restart", "run with restart=False"}}};
+  for (const auto& [option, argument] : words)
+    if (const std::size_t at = text.find(option); at != std::string::npos)
+      text.replace(at, option.size(), argument);
+  return text;
+}
 
 deck::SourceNode source_of(py::handle model, const std::string& file) {
   return Converter(file).node(model, "");

@@ -25,6 +25,9 @@ void add_contact(py::module_& m);
 /// Errors     core::InputError that names the key of anything else
 [[nodiscard]] deck::SourceNode source_of(py::handle model, const std::string& file);
 
+/// A text of the library with the names of Python's arguments in place of the program's options.
+[[nodiscard]] std::string in_python(std::string text);
+
 /// The values as an array that nobody copies: it owns them.
 template <class T>
 py::array array_of(std::vector<T>&& values, std::vector<py::ssize_t> shape) {

@@ -16,9 +16,32 @@ namespace {
 template <class T, std::size_t N>
 using Words = std::array<std::pair<std::string_view, T>, N>;
 
+template <class T>
+constexpr const char* kind = nullptr;
+template <>
+constexpr const char* kind<int> = "a whole number";
+template <>
+constexpr const char* kind<double> = "a number";
+template <>
+constexpr const char* kind<bool> = "True or False";
+template <>
+constexpr const char* kind<std::string> = "a word";
+template <>
+constexpr const char* kind<std::vector<std::string>> = "a list of words";
+template <>
+constexpr const char* kind<std::vector<std::array<double, 2>>> = "pairs of numbers";
+
+/// Errors     Refused that names the argument, if it is of another kind
+template <class T>
+T get(const py::dict& arguments, const char* key) {
+  return as<T>(arguments[key], key, kind<T>);
+}
+
+using Pairs = std::vector<std::array<double, 2>>;
+
 template <class T, std::size_t N>
 T choice(const py::dict& arguments, const char* key, const Words<T, N>& words) {
-  const std::string given = arguments[key].cast<std::string>();
+  const std::string given = get<std::string>(arguments, key);
   std::string known;
   for (const auto& [word, value] : words) {
     if (word == given) return value;
@@ -54,53 +77,52 @@ constexpr Words<Smoothing::Kind, 3> smoothings{{{"none", Smoothing::Kind::none},
                                                 {"hermite", Smoothing::Kind::hermite},
                                                 {"nurbs", Smoothing::Kind::nurbs}}};
 
+/// A number of a law or the points of its curve, `name` in it.
+void read_value(NamedLaw& law, const std::string& name, py::handle value) {
+  const std::string what = name == law.law ? name : law.law + ": " + name;
+  if (py::hasattr(value, "__len__") && !py::isinstance<py::str>(value))
+    law.points = as<Pairs>(value, what, kind<Pairs>);
+  else
+    law.numbers.emplace_back(name, as<double>(value, what, kind<double>));
+}
+
 /// `{"coulomb": {"mu": 0.3, "penalty": 1e4}}`, `{"penalty": 1e4}` or `{"table": [[0, 0], [1, 2]]}`.
 NamedLaw law_of(const py::object& given, const char* key) {
-  const auto laws = given.cast<py::dict>();
+  if (!py::isinstance<py::dict>(given))
+    throw Refused(
+        fmt::format("{}: expected a dictionary with one law, got {}", key, printed(given)));
+  const auto laws = py::reinterpret_borrow<py::dict>(given);
   if (laws.size() != 1) throw Refused(fmt::format("{}: expected one law", key));
   const auto [word, value] = *laws.begin();
-  NamedLaw law{word.cast<std::string>(), {}};
-  if (py::isinstance<py::dict>(value)) {
-    for (const auto& [name, number] : py::reinterpret_borrow<py::dict>(value)) {
-      const std::string of = name.cast<std::string>();
-      if (py::hasattr(number, "__len__") && !py::isinstance<py::str>(number))
-        law.points = number.cast<std::vector<std::array<double, 2>>>();
-      else if (py::isinstance<py::str>(number))
-        throw Refused(fmt::format("{}: {} is a number here, not '{}'", law.law, of,
-                                  number.cast<std::string>()));
-      else
-        law.numbers.emplace_back(of, number.cast<double>());
-    }
-  } else if (py::hasattr(value, "__len__") && !py::isinstance<py::str>(value)) {
-    law.points = value.cast<std::vector<std::array<double, 2>>>();
-  } else if (py::isinstance<py::str>(value)) {
-    throw Refused(
-        fmt::format("{}: a number is expected here, not '{}'", law.law, value.cast<std::string>()));
-  } else {
-    law.numbers.emplace_back(law.law, value.cast<double>());
+  NamedLaw law{as<std::string>(word, key, kind<std::string>), {}};
+  if (!py::isinstance<py::dict>(value)) {
+    read_value(law, law.law, value);
+    return law;
   }
+  for (const auto& [name, number] : py::reinterpret_borrow<py::dict>(value))
+    read_value(law, as<std::string>(name, law.law, kind<std::string>), number);
   return law;
 }
 
 template <class T>
 std::optional<T> optional_number(const py::dict& arguments, const char* key) {
   if (arguments[key].is_none()) return std::nullopt;
-  return arguments[key].cast<T>();
+  return get<T>(arguments, key);
 }
 
 template <int Dim>
 void read_rules(const py::dict& a, Contact<Dim>& c) {
-  c.sampling = {choice(a, "sampling", rules), a["sampling_points"].cast<int>(),
-                a["subdomains"].cast<int>()};
+  c.sampling = {choice(a, "sampling", rules), get<int>(a, "sampling_points"),
+                get<int>(a, "subdomains")};
   c.enforcement = choice(a, "enforcement", enforcements);
   c.weight = choice(a, "weight", weights);
   c.separation = choice(a, "separation", separations);
   c.overlap = choice(a, "overlap", overlaps);
   c.history = choice(a, "history", histories);
   c.residual = choice(a, "residual", residuals);
-  c.smoothing = {choice(a, "smoothing", smoothings), a["sharp_angle"].cast<double>()};
+  c.smoothing = {choice(a, "smoothing", smoothings), get<double>(a, "sharp_angle")};
   if (!a["tangent"].is_none()) {
-    const auto parts = a["tangent"].cast<std::vector<std::string>>();
+    const auto parts = get<std::vector<std::string>>(a, "tangent");
     c.tangent = {false, false, false, false};
     for (const std::string& part : parts) {
       if (part != "main" && part != "rotational" && part != "curvature")
@@ -123,18 +145,18 @@ Contact<Dim> contact_of(const py::dict& a) {
   if (!a["friction"].is_none()) c.friction = law_of(a["friction"], "friction");
   if (!a["damping"].is_none()) c.damping = law_of(a["damping"], "damping");
   if (!a["factors"].is_none())
-    for (const auto& [normal, shear] : a["factors"].cast<std::vector<std::pair<double, double>>>())
+    for (const auto& [normal, shear] : get<Pairs>(a, "factors"))
       c.factors.push_back({normal, shear});
   read_rules(a, c);
-  c.tolerance = a["tolerance"].cast<double>();
-  c.keep_gap = a["keep_gap"].cast<bool>();
-  c.offset = a["offset"].cast<double>();
-  c.area = {a["thickness"].cast<double>(), a["axisymmetric"].cast<bool>()};
+  c.tolerance = get<double>(a, "tolerance");
+  c.keep_gap = get<bool>(a, "keep_gap");
+  c.offset = get<double>(a, "offset");
+  c.area = {get<double>(a, "thickness"), get<bool>(a, "axisymmetric")};
   c.edge_angle = optional_number<double>(a, "edge_angle");
-  c.reentrant_vertices = a["reentrant_vertices"].cast<bool>();
+  c.reentrant_vertices = get<bool>(a, "reentrant_vertices");
   c.search_distance = optional_number<double>(a, "search_distance");
-  c.depth = a["depth"].cast<double>();
-  c.part = a["part"].cast<double>();
+  c.depth = get<double>(a, "depth");
+  c.part = get<double>(a, "part");
   return c;
 }
 template Contact<2> contact_of<2>(const py::dict&);

@@ -29,7 +29,7 @@ void translate(std::exception_ptr thrown) {
   } catch (const core::InputError& error) {
     const py::object type = error_class("InputError");
     const core::SourceMark& mark = error.mark();
-    set_error(type, type(error.what(), mark.file, mark.line, mark.key));
+    set_error(type, type(in_python(error.what()), mark.file, mark.line, mark.key));
   } catch (const Refused& error) {
     const py::object type = error_class("Refused");
     set_error(type, type(error.what()));

@@ -4,6 +4,7 @@
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
+#include <chrono>
 #include <optional>
 
 #include "convert.hpp"
@@ -59,7 +60,7 @@ class Listener {
       options.converged = [this](const api::LiveIncrement& live) { return converged(live); };
     if (!say_.is_none())
       options.say = [this](std::string_view text) {
-        (void)guarded([&] { return say_(py::str(text.data(), text.size())), true; });
+        if (!guarded([&] { return say_(py::str(text.data(), text.size())), true; })) failed_ = true;
       };
   }
 
@@ -76,19 +77,38 @@ class Listener {
       return call();
     } catch (py::error_already_set& error) {
       error_ = error.value();
+      if (error.trace()) PyException_SetTraceback(error_.ptr(), error.trace().ptr());
       return false;
     }
   }
 
-  /// Signals reach the main thread alone.
+  /// Signals reach the main thread alone. Python's lock is asked for every 50 ms at most: another
+  /// thread may hold it for milliseconds.
   bool ended() {
     if (failed_) return true;
-    if (!signals_) return false;
+    const auto now = std::chrono::steady_clock::now();
+    if (!signals_ || now < next_look_) return false;
+    next_look_ = now + std::chrono::milliseconds(50);
     failed_ = !guarded([] {
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
       return true;
     });
     return failed_;
+  }
+
+  /// Ends with the increment, also where the callback raises: nobody asks for fields afterwards.
+  struct Told {
+    const api::LiveIncrement*& live;
+    explicit Told(const api::LiveIncrement*& told) : live(told) {}
+    Told(const Told&) = delete;
+    Told& operator=(const Told&) = delete;
+    ~Told() { live = nullptr; }
+  };
+
+  static bool truth(const py::object& answer) {
+    const int is = PyObject_IsTrue(answer.ptr());
+    if (is < 0) throw py::error_already_set();
+    return is == 1;
   }
 
   bool converged(const api::LiveIncrement& live) {
@@ -98,6 +118,7 @@ class Listener {
         history[py::str(live.columns[i])] = live.row[i];
       const model::Progress& p = live.progress;
       auto fields = std::make_shared<const api::LiveIncrement*>(&live);
+      const Told told{*fields};
       const py::cpp_function sets([fields] {
         if (*fields == nullptr)
           throw std::runtime_error("fields of an increment can be asked for while it is told only");
@@ -107,8 +128,7 @@ class Listener {
       });
       const py::object answer =
           on_increment_(live.step, p.increment, p.time, p.fraction, live.iterations, history, sets);
-      *fields = nullptr;
-      refused_ = answer.is(py::bool_(false));
+      refused_ = !answer.is_none() && !truth(answer);
       return !refused_;
     });
     if (!go_on) failed_ = true;
@@ -118,6 +138,7 @@ class Listener {
   py::object on_increment_, say_, error_;
   bool signals_, refused_ = false;
   bool failed_ = false;
+  std::chrono::steady_clock::time_point next_look_{};
 };
 
 std::vector<deck::Setting> settings_of(
@@ -155,8 +176,8 @@ py::tuple run(const std::string& model, const py::object& document, const std::s
     const py::gil_scoped_release unlocked;
     outcome = api::run(options);
   }
-  return py::make_tuple(outcome.status == api::RunStatus::done, outcome.message, outcome.folder,
-                        outcome.summary_json, listener.refused(), listener.error());
+  return py::make_tuple(outcome.status == api::RunStatus::done, in_python(outcome.message),
+                        outcome.folder, outcome.summary_json, listener.refused(), listener.error());
 }
 
 py::tuple check(const std::string& model, const py::object& document,

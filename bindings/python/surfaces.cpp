@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cstdint>
+#include <limits>
 #include <string_view>
 
 #include "osculate/errors.hpp"
@@ -28,11 +30,30 @@ constexpr std::array<TypeWord, 12> types{{{"line2", FacetType::line2, 2},
                                           {"quad8", FacetType::quad8, 8},
                                           {"quad9", FacetType::quad9, 9}}};
 
-using Nodes = py::array_t<Index, py::array::c_style | py::array::forcecast>;
+using Nodes = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
+
+/// Whole numbers of any width; an empty list is one of no kind. What they count is checked later.
+Nodes whole_numbers(py::handle list) {
+  const py::array given = py::array::ensure(list);
+  if (!given) throw Refused("nodes: expected an array of whole numbers");
+  const char kind = given.dtype().kind();
+  if (given.size() > 0 && kind != 'i' && kind != 'u')
+    throw Refused(fmt::format("nodes: expected whole numbers, got an array of {}",
+                              std::string(py::str(given.dtype()))));
+  return Nodes::ensure(given);
+}
 
 std::vector<Index> nodes_of(py::handle list) {
-  const auto nodes = list.cast<Nodes>();
-  return {nodes.data(), nodes.data() + nodes.size()};
+  const Nodes nodes = whole_numbers(list);
+  std::vector<Index> out;
+  out.reserve(static_cast<std::size_t>(nodes.size()));
+  for (py::ssize_t i = 0; i < nodes.size(); ++i) {
+    const std::int64_t node = nodes.data()[i];
+    if (node < 0 || node > std::numeric_limits<Index>::max())
+      throw Refused(fmt::format("nodes: {} is no number of a node", node));
+    out.push_back(static_cast<Index>(node));
+  }
+  return out;
 }
 
 template <class Variant, std::size_t K = 0>
@@ -52,7 +73,8 @@ bool cast_to(py::handle object, Variant& out) {
 std::vector<Facets> facets_of(const py::object& pairs) {
   std::vector<Facets> out;
   for (const py::handle pair : pairs) {
-    const auto [word, list] = pair.cast<std::pair<std::string, py::object>>();
+    const auto [word, list] = as<std::pair<std::string, py::object>>(
+        pair, "facets", "pairs of a type and an array of nodes");
     const TypeWord* known = nullptr;
     for (const TypeWord& type : types)
       if (type.word == word) known = &type;
@@ -61,7 +83,7 @@ std::vector<Facets> facets_of(const py::object& pairs) {
           fmt::format("'{}' is no type of facets: they are line2 ... line8, tri3, tri6, "
                       "quad4, quad8, quad9",
                       word));
-    const auto nodes = list.cast<Nodes>();
+    const Nodes nodes = whole_numbers(list);
     if (nodes.ndim() == 2 && nodes.shape(1) != known->nodes)
       throw Refused(
           fmt::format("a facet {} has {} nodes, not {}", word, known->nodes, nodes.shape(1)));
@@ -84,11 +106,13 @@ template Shape<3> shape_of<3>(py::handle);
 
 template <int Dim>
 Surface<Dim> surface_of(const py::object& surface) {
+  if (!py::hasattr(surface, "facets"))
+    throw Refused("expected an osculate.Surface, got " + printed(surface));
   Surface<Dim> out;
   out.facets = facets_of(surface.attr("facets"));
   for (const py::handle shape : surface.attr("shapes"))
     out.framed.shapes.push_back(shape_of<Dim>(shape));
-  out.framed.closed = surface.attr("closed").cast<bool>();
+  out.framed.closed = as<bool>(surface.attr("closed"), "closed", "True or False");
   const std::vector<Index> frame = nodes_of(surface.attr("frame"));
   if (!out.framed.shapes.empty() && frame.size() != out.framed.frame.size())
     throw Refused(fmt::format("a shape stands on a frame of {} nodes, not of {}",

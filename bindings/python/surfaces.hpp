@@ -4,9 +4,24 @@
 #include <vector>
 
 #include "convert.hpp"
+#include "osculate/errors.hpp"
 #include "osculate/surface.hpp"
 
 namespace osculate::python {
+
+[[nodiscard]] inline std::string printed(py::handle value) { return py::repr(value); }
+
+/// The value as C++ has it.
+///
+/// Errors     Refused, with what it is of and what was expected, if it is of another kind
+template <class T>
+[[nodiscard]] T as(py::handle value, const std::string& what, const char* expected) {
+  try {
+    return value.cast<T>();
+  } catch (const py::cast_error&) {
+    throw Refused(what + ": expected " + expected + ", got " + printed(value));
+  }
+}
 
 /// Facets from pairs of a type's word and an array of nodes, one row a facet.
 ///

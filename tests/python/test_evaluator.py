@@ -166,6 +166,29 @@ class Evaluators(unittest.TestCase):
         with self.assertRaisesRegex(osculate.Refused, "2 coordinates"):
             evaluator.evaluate(np.zeros((4, 3)), evaluator.initial_history(x))
 
+    def test_wrong_kinds_are_refused_with_the_name_of_the_argument(self):
+        for change, part in (({"offset": "far"}, "offset: expected a number, got 'far'"),
+                             ({"keep_gap": "yes"}, "keep_gap: expected True or False, got 'yes'"),
+                             ({"sampling_points": 2.5}, "sampling_points: expected a whole number, got 2.5"),
+                             ({"weight": 1}, "weight: expected a word, got 1"), ({"normal": 1e4}, "normal: expected a"),
+                             ({"normal": {"penalty": None}}, "penalty: expected a number, got None"),
+                             ({"normal": {"table": [1, 2]}}, "table: expected pairs of numbers"),
+                             ({"friction": {"coulomb": {"mu": []}}}, "no law|coulomb|mu"),
+                             ({"tangent": [1]}, "tangent: expected a list of words"),
+                             ({"slave": 3}, "expected an osculate.Surface, got 3"),
+                             ({"slave": Surface(facets=[3])}, "facets: expected pairs")):
+            with self.subTest(part=part), self.assertRaisesRegex(osculate.Refused, part):
+                plane(**change)
+
+    def test_nodes_are_whole_numbers(self):
+        for nodes, part in (([[3.7, 4.2]], "whole numbers"), ([[True, False]], "whole numbers"),
+                            ([[3, 2**32 + 4]], "no number of a node"), ([[3, -1]], "no number of a node")):
+            with self.subTest(nodes=nodes), self.assertRaisesRegex(osculate.Refused, part):
+                plane(slave=Surface(facets=[("line2", nodes)]))
+        for kind in (np.int32, np.uint64, np.int8):
+            narrow = plane(slave=Surface(facets=[("line2", np.array([[3, 4], [4, 5]], dtype=kind))]))[0]
+            self.assertEqual([nodes.tolist() for nodes, _, _ in narrow.slave_points()], [[3], [4], [5]])
+
     def test_threads_share_an_evaluator(self):
         evaluator, x, frame = space()
         history, x = evaluator.initial_history(x), pressed(x, frame)

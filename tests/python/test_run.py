@@ -7,6 +7,7 @@ import subprocess
 import sys
 import tempfile
 import threading
+import traceback
 import unittest
 
 import numpy as np
@@ -134,6 +135,54 @@ class Runs(unittest.TestCase):
         with self.assertRaises((OSError, osculate.InputError)):
             osculate.run(block(), self.path("file") / "below")
 
+    def test_limits_have_ranges(self):
+        for change in ({"threads": 0}, {"threads": -1}, {"threads": 100000}, {"threads": 1.5}, {"threads": True},
+                       {"max_iterations": -1}, {"max_iterations": 2.5}, {"max_minutes": np.nan}, {"max_minutes": -1},
+                       {"max_minutes": "long"}):
+            name = next(iter(change))
+            with self.subTest(change=change), self.assertRaisesRegex(osculate.InputError, f"^{name}: expected"):
+                osculate.run(block(), self.path("none"), **change)
+        self.assertFalse(self.path("none").exists())
+        with self.assertRaises(osculate.AnalysisFailed) as raised:
+            osculate.run(block(), max_iterations=np.int64(2))
+        self.assertIn("iterations that max_iterations allows", str(raised.exception))
+        self.assertEqual(raised.exception.result.message, str(raised.exception))
+        with self.assertRaisesRegex(osculate.InputError, "run with restart=False"):
+            osculate.run(block(), restart=True)
+
+    def test_results_of_a_run_that_was_killed(self):
+        folder = self.path("results")
+        whole = osculate.run(block(), folder)
+        (folder / "summary.json").unlink()
+        rows = (folder / "history.csv").read_bytes()
+        (folder / "history.csv").write_bytes(rows[:-5])
+        result = osculate.Result(folder)
+        self.assertEqual((result.status, result.summary), ("unfinished", {}))
+        np.testing.assert_array_equal(result.history["time"], whole.history["time"][:-1])
+        np.testing.assert_array_equal(result.increments[-1]["U"], whole.increments[-2]["U"])
+
+    def test_fields_of_files_are_read_only_and_those_that_are_told_are_not(self):
+        told = []
+        for compress in (False, True):
+            packed = block(output={**block()["output"], "compress": compress})
+            result = osculate.run(packed, on_increment=lambda state: told.append(state["U"]))
+            self.assertFalse(result.increments[-1]["U"].flags.writeable)
+            self.assertTrue(result.history["time"].flags.writeable)
+        self.assertTrue(told[0].flags.writeable)
+
+    def test_broken_files_are_named(self):
+        folder = self.path("results")
+        osculate.run(block(), folder)
+        for name in ("bodies_00002.vtu", "results.pvd", "history.csv", "summary.json"):
+            kept = (folder / name).read_bytes()
+            for size in (len(kept) // 2, len(kept) // 8):
+                cut = kept + b"1,2\n" if name == "history.csv" else kept[:size]
+                (folder / name).write_bytes(cut)
+                with self.subTest(name=name, size=size), self.assertRaisesRegex(osculate.InputError, name):
+                    osculate.Result(folder).increments[2]["U"]
+            (folder / name).write_bytes(kept)
+        osculate.Result(folder).increments[2]["U"]
+
     def test_check_says_what_the_program_says(self):
         def without_memory(text):
             return [line for line in text.splitlines() if not line.startswith("Memory")]
@@ -172,6 +221,16 @@ class Watching(unittest.TestCase):
         np.testing.assert_array_equal(osculate.run(packed).increments[-1]["S"],
                                       osculate.run(block()).increments[-1]["S"])
 
+    def test_a_pair_called_as_the_bodies_are(self):
+        told = []
+        contact = [{**block()["contact"][0], "name": "bodies"}]
+        result = osculate.run(block(contact=contact, output={}), on_increment=lambda s: told.append(s.parts))
+        self.assertEqual(sum(i.has_fields for i in result.increments), len(told) + 1)
+        for parts in (told[-1], result.increments[-1].parts):
+            self.assertEqual(list(parts), ["bodies", "rigid bodies", "contact bodies"])
+            self.assertEqual(parts.field("U").shape, parts["bodies"].points.shape)
+            self.assertIn("CPRESS", parts["contact bodies"])
+
     def test_false_stops_with_what_has_converged(self):
         result = osculate.run(block(), on_increment=lambda state: state.time < 1)
         self.assertEqual(result.status, "stopped")
@@ -191,6 +250,53 @@ class Watching(unittest.TestCase):
         osculate.run(block(), on_increment=kept.append)
         with self.assertRaisesRegex(RuntimeError, "while it is told"):
             kept[0]["U"]
+
+    def test_fields_cannot_be_asked_for_after_an_exception(self):
+        kept = []
+
+        def watch(state):
+            kept.append(state)
+            raise KeyError(state.step)
+
+        with self.assertRaises(KeyError):
+            osculate.run(block(), on_increment=watch)
+        with self.assertRaisesRegex(RuntimeError, "while it is told"):
+            kept[0]["U"]
+
+    def test_whatever_is_false_stops_but_none(self):
+        for answer, increments in ((np.bool_(False), 2), (0, 2), (None, 5), (np.bool_(True), 5)):
+            with self.subTest(answer=answer):
+                result = osculate.run(block(), on_increment=lambda state, answer=answer: answer)
+                self.assertEqual(len(result.increments), increments)
+        with self.assertRaisesRegex(ValueError, "ambiguous"):
+            osculate.run(block(), on_increment=lambda state: np.zeros(2))
+
+    def test_an_exception_has_the_lines_of_the_callback(self):
+        def callback_with_a_name(state):
+            raise KeyError(state.step)
+
+        told = ""
+        try:
+            osculate.run(block(), on_increment=callback_with_a_name)
+        except KeyError:
+            told = traceback.format_exc()
+        self.assertIn("in callback_with_a_name", told)
+
+    def test_an_exception_of_say_ends_a_run_in_a_thread(self):
+        with tempfile.TemporaryDirectory() as folder:
+            raised = []
+
+            def work():
+                try:
+                    osculate.run(block(), folder, say=lambda text: 1 / 0)
+                except ZeroDivisionError as error:
+                    raised.append(error)
+
+            thread = threading.Thread(target=work)
+            thread.start()
+            thread.join()
+            self.assertEqual(len(raised), 1)
+            self.assertEqual(osculate.Result(folder).status, "stopped")
 
     def test_interrupt_keeps_what_has_converged(self):
         def watch(state):
@@ -301,12 +407,57 @@ class Meshes(unittest.TestCase):
     def test_wrong_meshes_are_refused(self):
         for change, part in (({"cells": [("quad5", self.quads)]}, "no type of cells"),
                              ({"cells": [("quad4", [[0, 1, 2]])]}, "has 4 nodes, not 3"),
-                             ({"cells": [("quad4", [[0, 1, 4, 6]])]}, "none of the 6 points"),
+                             ({"cells": [("quad4", [[0, 1, 4, 6]])]}, "numbers from 0 to 5, got 0 to 6"),
                              ({"points": [1, 2, 3]}, "one row of")):
             with self.subTest(part=part), self.assertRaisesRegex(osculate.InputError, part):
                 osculate.run(self.model(), mesh={**self.mesh(), **change})
         with self.assertRaisesRegex(osculate.InputError, "unknown set 'top'"):
             osculate.run(self.model(), mesh={**self.mesh(), "point_sets": {}})
+
+    def test_the_mesh_beside_a_folder(self):
+        with tempfile.TemporaryDirectory() as top:
+            folder = pathlib.Path(top, "new", "results")
+            file = pathlib.Path(top, "new", "results.msh")
+            wrong = {**self.model(), "contac": 1}
+            for model, mesh in ((wrong, self.mesh()), (self.model(), {**self.mesh(), "points": [1]})):
+                with self.assertRaises(osculate.InputError):
+                    osculate.run(model, folder, mesh=mesh)
+                self.assertEqual(os.listdir(top), [])
+            self.same(osculate.run(self.model(), folder, mesh=self.mesh()))
+            kept = file.read_bytes()
+            self.assertEqual(sorted(os.listdir(file.parent)), ["results", "results.msh"])
+            with self.assertRaises(osculate.InputError):
+                osculate.run(wrong, folder, mesh={**self.mesh(), "points": 2 * self.points})
+            self.assertEqual(file.read_bytes(), kept)
+            osculate.run(self.model(), folder, mesh={**self.mesh(), "points": 2 * self.points})
+            self.assertNotEqual(file.read_bytes(), kept)
+            with self.assertRaises(osculate.InputError):  # results of another mesh
+                osculate.run(self.model(), folder, mesh=self.mesh(), restart=True)
+            self.assertNotEqual(file.read_bytes(), kept)
+            self.assertEqual(sorted(os.listdir(file.parent)), ["results", "results.msh"])
+
+    def test_sets_may_be_masks(self):
+        mesh = self.mesh()
+        mesh["point_sets"] = {"top": np.array([False, False, False, True, True, True])}
+        mesh["cell_sets"] = {"all": [np.array([True, True]), np.array([])], "left": [np.array([True, False]), None]}
+        model = self.model()
+        model["sections"][0]["on"] = "all"
+        self.same(osculate.run(model, mesh=mesh))
+        model["sections"] = [{**model["sections"][0], "on": "left"}]
+        with self.assertRaisesRegex(osculate.InputError, "section"):
+            osculate.run(model, mesh=mesh)
+
+    def test_sets_that_are_no_numbers_of_nodes_or_cells_are_refused(self):
+        for change, part in (({"point_sets": {"top": [True, False]}}, "set 'top': expected a mask of 6"),
+                             ({"point_sets": {"top": [3.7, 4]}}, "set 'top': expected whole numbers"),
+                             ({"point_sets": {"top": [6]}}, "set 'top': expected numbers from 0 to 5, got 6"),
+                             ({"point_sets": {"top": [-1]}}, "set 'top': expected numbers from 0"),
+                             ({"cell_sets": {"some": [[2], None]}}, "set 'some': expected numbers from 0 to 1, got 2"),
+                             ({"cell_sets": {"some": [[0.5], None]}}, "set 'some': expected whole numbers"),
+                             ({"cells": [("quad4", np.array(self.quads, dtype=float))]}, "nodes of cells quad4"),
+                             ({"cells": [("quad4", [[True, False, True, False]])]}, "truth values")):
+            with self.subTest(part=part), self.assertRaisesRegex(osculate.InputError, part):
+                osculate.run(self.model(), mesh={**self.mesh(), **change})
 
     def test_paths_are_relative_to_the_base(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -76,6 +76,16 @@ class Stubs(unittest.TestCase):
                         function = inspect.getattr_static(self.public[name], method.name)
                         self.same_parameters(f"{name}.{method.name}", method, function)
 
+    def test_no_type_is_the_name_of_a_method(self):
+        """In a class with a method `bytes` the type is `builtins.bytes`."""
+        for kind in (node for node in STUB.body if isinstance(node, ast.ClassDef)):
+            methods = [node for node in kind.body if isinstance(node, ast.FunctionDef)]
+            built_in = {m.name for m in methods} & {"bytes", "int", "float", "bool", "str", "list", "dict", "tuple"}
+            for method in methods:
+                types = [a.annotation for a in [*method.args.args, *method.args.kwonlyargs]] + [method.returns]
+                used = {n.id for t in types if t for n in ast.walk(t) if isinstance(n, ast.Name)}
+                self.assertFalse(used & built_in, f"{kind.name}.{method.name}")
+
     def test_everything_has_a_sentence(self):
         for name, value in self.public.items():
             self.assertTrue(inspect.getdoc(value), name)

@@ -1,6 +1,11 @@
 """Studies: a model over values of its parameters."""
+import contextlib
 import os
+import signal
+import subprocess
+import sys
 import tempfile
+import threading
 import unittest
 
 import numpy as np
@@ -44,6 +49,53 @@ class Studies(unittest.TestCase):
             self.assertEqual(second.summary["parameters"]["side"], "0.2")
             with self.assertRaisesRegex(TypeError, "folder"):
                 osculate.study(path, {"side": [0.1]}, OUTPUTS)
+
+    def test_what_fails_is_a_row(self):
+        def model(side):
+            if side > 0.15:
+                raise OSError("no such mesh")
+            return block(parameters={"mu": 0.3, "side": side})
+
+        outputs = {**OUTPUTS, "wrong": lambda result: 1 / 0}
+        for processes in (1, 2):
+            table = osculate.study(model, {"side": [0.1, 0.2]}, outputs, processes=processes)
+            self.assertAlmostEqual(table[0]["force"], 16)
+            self.assertTrue(np.isnan([table[0]["wrong"], table[1]["wrong"], table[1]["force"]]).all())
+            self.assertEqual(table[0]["status"], "failed: wrong: ZeroDivisionError: division by zero")
+            self.assertEqual(table[1]["status"], "failed: OSError: no such mesh")
+
+    def test_studies_in_threads_do_not_mix(self):
+        tables = [None, None]
+
+        def work(i):
+            tables[i] = osculate.study(block(), {"side": [0.1 + 0.1 * i, 0.3]}, OUTPUTS, processes=1 + i)
+
+        threads = [threading.Thread(target=work, args=(i,)) for i in range(2)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual([t.column("side").tolist() for t in tables], [[0.1, 0.3], [0.2, 0.3]])
+
+    def test_processes_have_one_thread_each(self):
+        with self.assertRaisesRegex(osculate.InputError, "threads: expected 1 where a study has 2 processes"):
+            osculate.study(block(), {"side": [0.1]}, OUTPUTS, processes=2, threads=2)
+        code = """if True:
+            import osculate
+            from models import block
+            mesh = {"generate": {"block": {"box": {"x": [0, 4], "y": [0, 2], "elements": [40, 20]}}}}
+            osculate.run(block(mesh=mesh), threads=2)
+            points = [[0.0, 1.0, 2.0]] * 100000
+            osculate.closest_points(osculate.Torus(), points, threads=2)
+            table = osculate.study(block(mesh=mesh), {"side": [0.1, 0.2]}, {"force": "c.normal_force"})
+            print(table.column("status").tolist())"""
+        with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True,
+                              start_new_session=True) as process:
+            try:
+                self.assertEqual(process.communicate(timeout=60)[0], "['done', 'done']\n")
+            finally:
+                with contextlib.suppress(ProcessLookupError):
+                    os.killpg(process.pid, signal.SIGKILL)
 
     def test_bad_input_is_raised(self):
         with self.assertRaisesRegex(osculate.InputError, "unknown parameter 'sid'"):

@@ -1,8 +1,11 @@
 """Results at points and cells as NumPy arrays, and the files they are read from."""
+import os
 import xml.etree.ElementTree as ElementTree
 import zlib
 
 import numpy as np
+
+from ._errors import InputError
 
 _MESHIO = {1: "vertex", 3: "line", 21: "line3", 35: "line4", 5: "triangle", 22: "triangle6", 9: "quad",
            23: "quad8", 28: "quad9", 10: "tetra", 24: "tetra10", 13: "wedge", 26: "wedge15", 12: "hexahedron",
@@ -63,11 +66,21 @@ class DataSet:
         return cells, self.types, self.points
 
 
+def _unused(part, taken):
+    """The name of a part. A contact pair called as the bodies are ("bodies") gets another one."""
+    while part in taken:
+        part = f"contact {part}"
+    return part
+
+
 class Parts:
     """The data sets of one state: `parts["floor"]` is one of them, `parts.field("U")` a field."""
 
     def __init__(self, sets):
-        self._sets = {data.part: data for data in sets}
+        self._sets = {}
+        for data in sets:
+            data.part = _unused(data.part, self._sets)
+            self._sets[data.part] = data
 
     def __iter__(self):
         return iter(self._sets)
@@ -107,10 +120,23 @@ def _unpacked(raw, at):
     return b"".join(out)
 
 
+_BROKEN = (ValueError, LookupError, AttributeError, TypeError, SyntaxError, zlib.error)  # SyntaxError: of XML, too
+
+
 def read_vtu(path, part="bodies"):
-    """A file of results (VTU as Osculate writes it) as a DataSet; nothing is copied that need not be."""
+    """A file of results (VTU as Osculate writes it) as a DataSet; nothing is copied that need not be.
+
+    Errors: InputError that names a file that is cut off or none of Osculate's.
+    """
     with open(path, "rb") as file:
         content = file.read()
+    try:
+        return _data_set(content, part)
+    except _BROKEN as error:
+        raise InputError(f"{path}: cut off, or no file of Osculate ({error})", path) from error
+
+
+def _data_set(content, part):
     head = content.index(b"<AppendedData")
     start = content.index(b"_", content.index(b">", head)) + 1
     raw = memoryview(content)[start:]
@@ -138,12 +164,17 @@ def read_vtu(path, part="bodies"):
 
 
 def read_collection(path):
-    """[(time, {part: file})] of results.pvd, in the order in which it was written."""
+    """[(time, {part: file})] of results.pvd, in the order in which it was written: the bodies come first.
+
+    Errors: InputError that names a file that is cut off.
+    """
     frames = []
-    root = ElementTree.parse(path).getroot()
-    for entry in root.iter("DataSet"):
-        part, time = entry.get("name") or entry.get("part"), float(entry.get("timestep"))
-        if not frames or frames[-1][0] != time or part in frames[-1][1]:
-            frames.append((time, {}))
-        frames[-1][1][part] = entry.get("file")
+    try:
+        for entry in ElementTree.parse(path).getroot().iter("DataSet"):
+            part, time, file = entry.get("name") or entry.get("part"), float(entry.get("timestep")), entry.get("file")
+            if not frames or frames[-1][0] != time or os.path.basename(file).startswith("bodies_"):
+                frames.append((time, {}))
+            frames[-1][1][_unused(part, frames[-1][1])] = file
+    except _BROKEN as error:
+        raise InputError(f"{path}: cut off, or no file of Osculate ({error})", path) from error
     return frames

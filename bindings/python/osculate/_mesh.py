@@ -10,12 +10,29 @@ _MESHIO = {"vertex": "point1", "line": "line2", "triangle": "tri3", "triangle6":
            "hexahedron27": "hex27"}
 
 
-def _block(name, nodes, of_meshio):
+def _integers(what, array, limit):
+    """Numbers from 0 to limit - 1, or a mask of so many; nothing else is taken for them."""
+    array = np.asarray(array)
+    if array.dtype == bool:
+        if array.shape != (limit,):
+            raise InputError(f"{what}: expected a mask of {limit} truth values, got one of shape {array.shape}")
+        return np.flatnonzero(array)
+    if array.size and array.dtype.kind not in "iu":
+        raise InputError(f"{what}: expected whole numbers, got an array of {array.dtype}")
+    if array.size and (array.min() < 0 or array.max() >= limit):
+        raise InputError(f"{what}: expected numbers from 0 to {limit - 1}, got {array.min()} to {array.max()}")
+    return array.astype(np.int64)
+
+
+def _block(name, nodes, of_meshio, points):
     """A block by our name of its cells, its nodes in Gmsh's order."""
     ours = _MESHIO.get(name, name)
     if ours not in _CELLS:
         raise InputError(f"'{name}' is no type of cells; there are {', '.join([*_CELLS, *_MESHIO])}")
-    nodes = np.atleast_2d(np.asarray(nodes, dtype=np.int64))
+    nodes = np.atleast_2d(nodes)
+    if nodes.dtype == bool:
+        raise InputError(f"cells {name}: expected numbers of nodes, got truth values")
+    nodes = _integers(f"nodes of cells {name}", nodes, points)
     count, order = _CELLS[ours][1], _CELLS[ours][4]
     if nodes.size and nodes.shape[1] != count:
         raise InputError(f"a cell {name} has {count} nodes, not {nodes.shape[1]}")
@@ -26,13 +43,13 @@ def _block(name, nodes, of_meshio):
     return ours, nodes
 
 
-def _blocks(mesh):
+def _blocks(mesh, points):
     """Blocks, and the sets that blocks with a name of their own are: {name: [rows or None of each block]}."""
     if isinstance(mesh, dict):
         given, of_meshio = [tuple(entry) for entry in mesh["cells"]], False
     else:
         given, of_meshio = [(block.type, block.data) for block in mesh.cells], True
-    blocks = [_block(entry[0], entry[1], of_meshio) for entry in given]
+    blocks = [_block(entry[0], entry[1], of_meshio, points) for entry in given]
     sets = {}
     for i, entry in enumerate(given):
         if len(entry) > 2:
@@ -71,7 +88,8 @@ def _members(mesh, blocks, sets):
             rows = [rows.get(i) for i in range(len(blocks))]
         if len(rows) != len(blocks):
             raise InputError(f"set '{name}': expected rows of each of the {len(blocks)} blocks of cells")
-        having = [(i, np.asarray(r, dtype=np.int64)) for i, r in enumerate(rows) if r is not None and len(r)]
+        having = [(i, _integers(f"set '{name}'", r, len(blocks[i][1]))) for i, r in enumerate(rows) if r is not None]
+        having = [(i, r) for i, r in having if len(r)]
         dimensions = {_CELLS[blocks[i][0]][0] for i, _ in having}
         if len(dimensions) > 1:
             raise InputError(f"set '{name}' has cells of several dimensions")
@@ -92,16 +110,14 @@ def write_gmsh(mesh, path):
     """Writes a mesh as a binary Gmsh file (MSH 2.2): nodes and cells keep their order.
 
     `mesh` is a mesh of meshio, or a dictionary: points (n, 2) or (n, 3); cells [(type, nodes[, set]), ...];
-    cell_sets {name: rows of each block} and point_sets {name: nodes}, which may be left out. Types are those of
+    cell_sets {name: rows of each block} and point_sets {name: nodes}, which may be left out; sets are numbers or masks
+    of as many truth values as there are cells in the block, or points. Types are those of
     Osculate (quad8, hex20: nodes in Gmsh's order) or of meshio (hexahedron20: in VTK's). Nodes count from 0.
     """
     points = np.asarray(mesh["points"] if isinstance(mesh, dict) else mesh.points, dtype=float)
     if points.ndim != 2 or points.shape[1] not in (2, 3):
         raise InputError("points: expected one row of 2 or 3 coordinates a point")
-    blocks, named = _blocks(mesh)
-    for cell, nodes in blocks:
-        if nodes.size and (nodes.min() < 0 or nodes.max() >= len(points)):
-            raise InputError(f"cells {cell}: a node is none of the {len(points)} points")
+    blocks, named = _blocks(mesh, len(points))
     first = np.concatenate([[0], np.cumsum([len(nodes) for _, nodes in blocks])]).astype(np.int64)
     free = [np.ones(len(nodes), dtype=bool) for _, nodes in blocks]
     names, records = [], []
@@ -116,7 +132,7 @@ def write_gmsh(mesh, path):
             records.append(_records(cell, 0, first[i] + rows, nodes[rows]))
     number = first[-1]
     for tag, (name, nodes) in enumerate(_part(mesh, "point_sets").items(), len(names) + 1):
-        nodes = np.asarray(nodes, dtype=np.int64).reshape(-1, 1)
+        nodes = _integers(f"set '{name}'", nodes, len(points)).reshape(-1, 1)
         names.append((0, tag, name))
         records.append(_records("point1", tag, number + np.arange(len(nodes)), nodes))
         number += len(nodes)

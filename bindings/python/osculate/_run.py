@@ -1,6 +1,9 @@
 """Analyses and their results."""
+import contextlib
 import csv
 import json
+import math
+import operator
 import os
 import shutil
 import tempfile
@@ -116,7 +119,7 @@ class Result:
 
     folder      its path
     summary     summary.json as a dictionary (docs/results.md)
-    status      "done" or "stopped"
+    status      "done", "stopped", or "unfinished": a run that still goes on or was killed; its summary is empty
     message     why it stopped, in plain words
     history     history.csv by columns (Columns)
     increments  the initial state and all converged increments, as many as rows of the history
@@ -125,22 +128,35 @@ class Result:
     def __init__(self, folder, *, _keep=None):
         self.folder = os.fspath(folder)
         self._keep = _keep  # a folder that goes with its last user
-        try:
-            with open(os.path.join(self.folder, "summary.json"), encoding="utf-8") as file:
-                self.summary = json.load(file)
-        except FileNotFoundError:
-            raise InputError(f"{self.folder}: there is no summary.json: no results of Osculate") from None
-        self.status, self.message = self.summary["status"], self.summary.get("message", "")
+        self.summary = self._read_summary()
+        self.status, self.message = self.summary.get("status", "unfinished"), self.summary.get("message", "")
         self._rows()
+
+    def _read_summary(self):
+        path = os.path.join(self.folder, "summary.json")
+        try:
+            with open(path, encoding="utf-8") as file:
+                return json.load(file)
+        except FileNotFoundError:
+            if os.path.exists(os.path.join(self.folder, "history.csv")):
+                return {}
+            raise InputError(f"{self.folder}: there is no summary.json: no results of Osculate") from None
+        except ValueError as error:
+            raise InputError(f"{path}: cut off, or no file of Osculate ({error})", path) from error
 
     def _rows(self):
         path = os.path.join(self.folder, "history.csv")
-        rows = []
+        text = ""
         if os.path.exists(path):
             with open(path, newline="", encoding="utf-8") as file:
-                rows = list(csv.reader(file))
+                text = file.read()
+        text = text[: text.rfind("\n") + 1]  # a last row that is still being written
+        rows = list(csv.reader(text.splitlines()))
         names, rows = (rows[0], rows[1:]) if rows else (["step", "increment", "time"], [])
-        table = np.array(rows, dtype=float).reshape(len(rows), len(names))
+        try:
+            table = np.array(rows, dtype=float).reshape(len(rows), len(names))
+        except ValueError as error:
+            raise InputError(f"{path}: expected {len(names)} numbers in every row ({error})", path) from error
         self.history = Columns(zip(names, np.ascontiguousarray(table.T)))
         for name in ("step", "increment"):
             self.history[name] = self.history[name].astype(int)
@@ -208,6 +224,73 @@ def _settings(parameters):
     return [(name, text(value)) for name, value in (parameters or {}).items()]
 
 
+def _limits(threads, max_iterations, max_minutes):
+    """Within the ranges of the program's options; 0 is no limit."""
+    for name, value, least, most in (("threads", threads, 1, 1024), ("max_iterations", max_iterations, 0, 10**9)):
+        try:
+            inside = least <= operator.index(value) <= most
+        except TypeError:
+            inside = False
+        if not inside or isinstance(value, bool):
+            raise InputError(f"{name}: expected a whole number from {least} to {most}, got {value!r}", key=name)
+    try:
+        inside = 0 <= float(max_minutes) < math.inf
+    except (TypeError, ValueError):
+        inside = False
+    if not inside:
+        raise InputError(f"max_minutes: expected a number, not negative, got {max_minutes!r}", key="max_minutes")
+
+
+class _MeshFile:
+    """A mesh that is written in place of the file `path`, complete, and taken back if its block raises."""
+
+    def __init__(self, mesh, path):
+        self.path, self._before, self._made = os.path.abspath(path), None, []
+        folder = os.path.dirname(self.path)
+        while not os.path.exists(folder):
+            self._made.append(folder)
+            folder = os.path.dirname(folder)
+        try:
+            for parent in reversed(self._made):
+                os.makedirs(parent, exist_ok=True)
+            self._write(mesh)
+        except BaseException:
+            self._without_folders()
+            raise
+
+    def _write(self, mesh):
+        new = f"{self.path}.{os.getpid()}.{threading.get_ident()}"
+        try:
+            write_gmsh(mesh, new)
+            if os.path.exists(self.path):
+                self._before = new + ".before"
+                os.replace(self.path, self._before)
+            os.replace(new, self.path)
+        finally:
+            if os.path.exists(new):
+                os.remove(new)
+
+    def _without_folders(self):
+        for parent in self._made:
+            try:
+                os.rmdir(parent)
+            except OSError:
+                return
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, error, *_):
+        if error is None:
+            if self._before is not None:
+                os.remove(self._before)
+        elif self._before is not None:
+            os.replace(self._before, self.path)
+        else:
+            os.remove(self.path)
+            self._without_folders()
+
+
 def _model(model, mesh, base, mesh_file):
     """Its path, and its content where it is a dictionary; an own mesh is written to a file."""
     if not hasattr(model, "items"):
@@ -218,9 +301,7 @@ def _model(model, mesh, base, mesh_file):
     if mesh is not None:
         if "mesh" in content:
             raise TypeError("the mesh is given twice: as an argument, and by the key `mesh` of the model")
-        path = mesh_file()
-        write_gmsh(mesh, path)
-        content["mesh"] = os.path.abspath(path)
+        content["mesh"] = os.path.abspath(mesh_file(mesh))
     return os.path.join(os.fspath(base) if base is not None else "", "model"), content
 
 
@@ -230,7 +311,12 @@ def check(model, *, mesh=None, base=None, parameters=None):
     Arguments as of `run`. Errors: InputError.
     """
     with tempfile.TemporaryDirectory(prefix="osculate-") as temporary:
-        path, content = _model(model, mesh, base, lambda: os.path.join(temporary, "mesh.msh"))
+        def mesh_file(mesh):
+            path = os.path.join(temporary, "mesh.msh")
+            write_gmsh(mesh, path)
+            return path
+
+        path, content = _model(model, mesh, base, mesh_file)
         text, facts = _core.check(path, content, _settings(parameters))
     return {**json.loads(facts), "text": text}
 
@@ -243,14 +329,15 @@ def run(model, folder=None, *, mesh=None, base=None, parameters=None, until=None
     folder        for the results; default: that of the program for a path, for a dictionary one that is removed with
                   the Result
     mesh          with a dictionary, in place of its key `mesh`: a mesh of meshio or a dictionary of arrays
-                  (`write_gmsh`). With a folder it is kept beside it as FOLDER.msh
+                  (`write_gmsh`). With a folder it is kept beside it as FOLDER.msh (as it was, if the model is refused)
     base          with a dictionary: the folder that its paths are relative to; default: the present one
     parameters    {name: value} in place of those of the model
     until         last step to run
-    threads       for assembly
+    threads       for assembly, 1 to 1024
     restart       go on after the last checkpoint in the folder
     max_iterations, max_minutes   the run stops there; 0: no limit
-    on_increment  called with a State after each converged increment (not of harmonic steps); False stops the run
+    on_increment  called with a State after each converged increment (not of harmonic steps); what is false but not None
+                  stops the run
     say           called with each line that the program would print
 
     Other Python threads go on meanwhile. Ctrl-C ends the run after the iteration that is under way.
@@ -258,22 +345,26 @@ def run(model, folder=None, *, mesh=None, base=None, parameters=None, until=None
     Errors: InputError, as the program says it; OSError for a folder that cannot be written to; AnalysisFailed and
     Interrupted have the converged increments as `result`; what a callback raises, after the run has ended.
     """
+    _limits(threads, max_iterations, max_minutes)
     keep = None
     if hasattr(model, "items") and folder is None:
         keep = _Folder()
         folder = os.path.join(keep.name, "results")
     target = "" if folder is None else os.fspath(folder)
-    path, content = _model(model, mesh, base, lambda: target.rstrip("/") + ".msh")
     watch = None if on_increment is None else lambda *state: on_increment(State(*state))
     main = threading.current_thread() is threading.main_thread()
-    done, message, target, summary, refused, error = _core.run(
-        path, content, target, _settings(parameters), until or "", threads, restart, max_iterations,
-        float(max_minutes), watch, say, main)
+    with contextlib.ExitStack() as files:
+        path, content = _model(model, mesh, base, lambda given: files.enter_context(
+            _MeshFile(given, target.rstrip("/") + ".msh")).path)
+        done, message, target, summary, refused, error = _core.run(
+            path, content, target, _settings(parameters), until or "", threads, restart, max_iterations,
+            float(max_minutes), watch, say, main)
     if error is not None and not isinstance(error, KeyboardInterrupt):
         raise error
     if json.loads(summary)["status"] == "checked":
         raise InputError(message)
     result = Result(target, _keep=keep)
+    result.message = message
     if error is not None:
         raise Interrupted(message, result) from error
     if not done and not refused:
