@@ -1,9 +1,13 @@
-"""The sliding block, watched while it goes on and stopped as soon as three quarters of it slide (docs/python.md)."""
+"""The sliding block, watched while it goes on and stopped as soon as three quarters of it slide (docs/python.md).
+
+Usage: sliding_block.py [MODEL], of itself examples/sliding_block/sliding_block.yaml beside it."""
 import pathlib
+import sys
 
 import osculate
 
-MODEL = pathlib.Path(__file__).resolve().parents[1] / "sliding_block" / "sliding_block.yaml"
+BESIDE = pathlib.Path(__file__).resolve().parent.parent / "sliding_block" / "sliding_block.yaml"
+MODEL = sys.argv[1] if len(sys.argv) > 1 else BESIDE
 
 
 def watch(state):

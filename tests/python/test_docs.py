@@ -5,8 +5,10 @@ import os
 import pathlib
 import re
 import runpy
+import sys
 import tempfile
 import unittest
+from unittest import mock
 
 SOURCE = pathlib.Path(os.environ["SOURCE"])
 
@@ -44,7 +46,7 @@ class Pages(unittest.TestCase):
 
     def test_examples_run(self):
         for name in ("sliding_block", "springs"):
-            with self.subTest(example=name), elsewhere() as printed:
+            with self.subTest(example=name), elsewhere() as printed, mock.patch.object(sys, "argv", [name]):
                 runpy.run_path(str(SOURCE / f"examples/python/{name}.py"), run_name="__main__")
             self.assertIn("normal force", printed.getvalue())
 
