@@ -28,7 +28,7 @@ namespace {
 struct DocFlags {
   std::vector<std::string> key;
   std::string word;
-  bool surface = false, manual = false;
+  bool surface = false, manual = false, markdown = false;
 };
 
 std::string join(const std::vector<std::string>& words, char separator) {
@@ -57,6 +57,7 @@ std::string documentation(const DocFlags& flags) {
                                              flags.word));
     return found;
   }
+  if (flags.markdown) return flags.surface ? deck::surface_reference() : deck::model_reference();
   const std::string key = join(flags.key, '.');
   if (flags.surface) return deck::explain_surface_key(key);
   try {
@@ -78,6 +79,7 @@ void add_doc(CLI::App& app, int&) {
                       "(default: the whole file)");
   command->add_option("--search", flags->word, "Find keys and pages that speak of a word");
   command->add_flag("--surface", flags->surface, "Of the surface file of `osculate project`");
+  command->add_flag("--markdown", flags->markdown, "All keys as one page of Markdown");
   command->add_flag("--man", flags->manual, "The commands and their options as a page for man");
   command->callback([flags, &app] {
     if (flags->manual) return print(stdout, "{}", manual_page(app));

@@ -12,7 +12,7 @@ import weakref
 
 import numpy as np
 
-from . import _core
+from . import _core, _plot
 from ._data import DataSet, Parts, read_collection, read_vtu
 from ._errors import AnalysisFailed, InputError, Interrupted
 from ._mesh import write_gmsh
@@ -43,7 +43,22 @@ class Columns(dict):
         return {name: unit for name, unit in known.items() if unit}
 
 
-class State:
+class _Drawn:
+    """What can be drawn of a state that has `parts`."""
+
+    def plot(self, field=None, *, scale=1.0, file=None, ax=None):
+        """Draws the deformed mesh with matplotlib, coloured by a field of the bodies' nodes; returns the axes.
+
+        field   name, or an array with a row for each node of the bodies; of several components: its length.
+                None: von Mises stress, or displacements where there is none
+        scale   of the displacements
+        file    the picture is saved there
+        ax      drawn into these axes
+        """
+        return _plot.draw(self.parts, field, scale, file, ax)
+
+
+class State(_Drawn):
     """An increment that has just converged, as `on_increment` of `run` gets it.
 
     step, increment    name of the step, number of the increment within it (from 1)
@@ -70,7 +85,7 @@ class State:
         return self.parts.field(field) if isinstance(field, str) else self.parts.field(field[1], field[0])
 
 
-class Increment:
+class Increment(_Drawn):
     """The initial state or a converged increment of a result.
 
     step, increment, time   name of the step, number within it (0: the initial state), time of the analysis
@@ -101,6 +116,9 @@ class Increment:
     def __getitem__(self, field):
         """`increment["U"]`, `increment["CPRESS"]`, or of a part: `increment["floor", "U"]`."""
         return self.parts.field(field) if isinstance(field, str) else self.parts.field(field[1], field[0])
+
+    def _repr_png_(self):
+        return _plot.png(self.parts) if self.has_fields else None
 
     def __repr__(self):
         return f"<Increment {self.increment} of {self.step!r}, time {self.time:g}>"
@@ -209,6 +227,10 @@ class Result:
         if file is not None:
             ax.figure.savefig(file)
         return ax
+
+    def _repr_png_(self):
+        drawn = [increment for increment in self.increments if increment.has_fields]
+        return _plot.png(drawn[-1].parts) if drawn else None
 
     def __repr__(self):
         return f"<Result {self.status}, {max(len(self.increments) - 1, 0)} increments, in {self.folder!r}>"

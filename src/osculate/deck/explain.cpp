@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <set>
 #include <utility>
 
@@ -112,6 +113,70 @@ std::string entry_text(const Found& found) {
   return out;
 }
 
+/// Text as Markdown shows it, word for word; between backquotes it is code already.
+std::string escaped(std::string_view text) {
+  std::string out;
+  bool code = false;
+  for (const char c : text) {
+    if (c == '`') code = !code;
+    if (!code && std::string_view(R"(\*_$<>[]|#~)").find(c) != std::string_view::npos) out += '\\';
+    out += c;
+  }
+  return out;
+}
+
+/// The name by which a heading of that path is linked to: its letters, digits, _ and -.
+std::string anchor(std::string_view path) {
+  std::string out;
+  for (const char c : path)
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-')
+      out += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return out;
+}
+
+void append_choices(const Spec& spec, std::string& out) {
+  for (const Choice& c : spec.choices)
+    out += fmt::format("  - `{}`: {}{}\n", c.name, escaped(c.doc),
+                       c.available ? "" : " (not available yet)");
+  if (spec.type != Type::either) return;
+  for (const Spec& part : spec.parts) append_choices(part, out);
+}
+
+bool has_keys(const Spec& spec) {
+  return !spec.keys.empty() || std::any_of(spec.parts.begin(), spec.parts.end(), has_keys);
+}
+
+/// A line for each key directly below, looking through lists, names and alternatives; those with
+/// keys of their own lead to their heading.
+void append_items(const Spec& spec, const std::string& path, std::string& out) {
+  const std::string dot = path.empty() ? "" : path + ".";
+  for (const Key& key : spec.keys) {
+    const std::string link = has_keys(key.spec) ? "](#" + anchor(dot + key.name) + ")" : "";
+    out += fmt::format("- {}**{}**{} ({}): {}{}\n", link.empty() ? "" : "[", key.name, link,
+                       escaped(type_line(key.spec, key.required)), escaped(key.spec.doc),
+                       key.spec.unit.empty() ? "" : " Unit: " + escaped(key.spec.unit) + ".");
+    append_choices(key.spec, out);
+  }
+  for (const Spec& part : spec.parts)
+    append_items(part,
+                 spec.type == Type::list    ? path + "[]"
+                 : spec.type == Type::names ? dot + "NAME"
+                                            : path,
+                 out);
+}
+
+std::string section_text(const Found& found) {
+  const Spec& spec = *found.spec;
+  const auto depth = std::count(found.path.begin(), found.path.end(), '.');
+  std::string out =
+      fmt::format("\n{} `{}`\n\n{} ({})\n\n", std::string(2 + std::min(depth, 3L), '#'), found.path,
+                  escaped(spec.doc), escaped(type_line(spec, found.required)));
+  append_items(spec, found.path, out);
+  if (!spec.example.empty())
+    out += fmt::format("\n```yaml\n{}: {}\n```\n", split(found.path).back(), spec.example);
+  return out;
+}
+
 /// Keys of exactly that path, else keys whose path ends so.
 std::vector<Found> find(const std::vector<Found>& all, std::string_view key) {
   const std::vector<std::string> typed = split(key);
@@ -166,6 +231,17 @@ std::string explain(const Spec& spec, std::string_view key) {
   return text;
 }
 
+std::string reference(const Spec& spec, std::string_view title) {
+  std::vector<Found> all;
+  collect(spec, {"", &spec, false}, all);
+  std::string text = fmt::format("# {}\n\n{}\n\n", title, escaped(spec.doc));
+  append_items(spec, "", text);
+  for (const Found& found : all)
+    if (has_keys(*found.spec)) text += section_text(found);
+  return text;
+}
+
 std::string explain_model_key(std::string_view key) { return explain(model_spec(), key); }
+std::string model_reference() { return reference(model_spec(), "Model file"); }
 
 }  // namespace osculate::deck

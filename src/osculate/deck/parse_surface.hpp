@@ -26,6 +26,7 @@ struct SurfaceInput {
 /// JSON schema of a surface file, and what a key of it means.
 [[nodiscard]] std::string surface_schema();
 [[nodiscard]] std::string explain_surface_key(std::string_view key);
+[[nodiscard]] std::string surface_reference();
 
 /// Larger than those of a model file: a surface file may hold a mesh.
 inline constexpr TextLimits surface_limits{std::size_t{256} << 20U, 4'000'000, 48};

@@ -84,5 +84,6 @@ Spec surface_spec() {
 std::string surface_schema() { return json_schema(surface_spec(), "Osculate surface file"); }
 
 std::string explain_surface_key(std::string_view key) { return explain(surface_spec(), key); }
+std::string surface_reference() { return reference(surface_spec(), "Surface file"); }
 
 }  // namespace osculate::deck

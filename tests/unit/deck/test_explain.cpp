@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cctype>
+
 #include "deck_test.hpp"
 #include "osculate/deck/explain.hpp"
 #include "osculate/deck/model_spec.hpp"
@@ -97,6 +100,49 @@ TEST(Explain, UnknownKeysNameTheNearest) {
             "unknown key 'contact[].frictoin'; did you mean 'contact[].friction'?");
   EXPECT_EQ(unknown("qqqqqqqq"), "unknown key 'qqqqqqqq'; without a key, all are listed");
   EXPECT_EQ(unknown(".."), "unknown key '..'; without a key, all are listed");
+}
+
+/// What lies between two marks, wherever they come.
+std::vector<std::string> between(const std::string& text, const std::string& a,
+                                 const std::string& b) {
+  std::vector<std::string> all;
+  for (std::size_t at = text.find(a); at != std::string::npos; at = text.find(a, at + 1)) {
+    const std::size_t from = at + a.size();
+    all.push_back(text.substr(from, text.find(b, from) - from));
+  }
+  return all;
+}
+
+TEST(Reference, EveryLinkHasItsHeadingAndEveryHeadingItsLink) {
+  const std::string page = model_reference();
+  std::vector<std::string> anchors;
+  for (std::string heading : between(page, "# `", "`")) {
+    std::erase_if(heading, [](char c) { return c == '.' || c == '[' || c == ']'; });
+    std::transform(heading.begin(), heading.end(), heading.begin(), ::tolower);
+    anchors.push_back(heading);
+  }
+  std::vector<std::string> links = between(page, "](#", ")");
+  EXPECT_GT(anchors.size(), 100U);
+  std::sort(anchors.begin(), anchors.end());
+  std::sort(links.begin(), links.end());
+  EXPECT_EQ(anchors, links);
+  EXPECT_EQ(std::adjacent_find(anchors.begin(), anchors.end()), anchors.end());
+}
+
+TEST(Reference, KeysHaveTheirLines) {
+  const std::string page = model_reference();
+  EXPECT_NE(page.find("\n##### `contact[].friction.coulomb`\n"), std::string::npos);
+  EXPECT_NE(page.find("- **mu** (a number \\>= 0, required): Coefficient of friction.\n"),
+            std::string::npos)
+      << page.substr(page.find("`contact[].friction.coulomb`"), 300);
+  EXPECT_NE(
+      page.find("- **density** (a number \\>= 0, default 0): Mass per reference volume. Unit: "
+                "mass/length^3.\n"),
+      std::string::npos);
+  EXPECT_NE(page.find("  - `augmented_lagrange`: by repeated correction of the penalty's"),
+            std::string::npos);
+  EXPECT_EQ(page.find("\n- **${"), std::string::npos);
+  EXPECT_NE(page.find("\\${name}"), std::string::npos);  // no formula
 }
 
 }  // namespace
