@@ -17,7 +17,7 @@ version = release = re.search(r"project\(\S+ VERSION (\S+)", (root / "CMakeLists
 
 extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.mathjax", "breathe"]
 root_doc = "README"
-include_patterns = ["*.md", "docs/*.md", "docs/site/*.md", "docs/decisions/*.md", "benchmarks/*.md",
+include_patterns = ["*.md", "docs/*.md", "docs/tutorials/*.md", "docs/decisions/*.md", "benchmarks/*.md",
                     "verification/*.md", "verification/*/README.md", "reference/*.md"]
 myst_enable_extensions = ["dollarmath", "amsmath"]
 myst_heading_anchors = 6
@@ -35,14 +35,13 @@ mathjax_path = "mathjax/MathJax.js?config=TeX-AMS_HTML"
 breathe_projects = {"osculate": str(made / "doxygen" / "xml")}
 breathe_default_project = "osculate"
 breathe_default_members = ("members",)
+breathe_domain_by_extension = {"h": "c"}
 autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
 
 
 def folder_as_text(app, env, node, contnode):
     """A link to a folder leads to its README where it is a page, and nowhere else."""
-    if node.get("reftype") != "myst":
-        return None
     folder = (pathlib.Path(app.srcdir) / node["refdoc"]).parent / node["reftarget"]
     if not folder.is_dir():
         return None
@@ -50,6 +49,11 @@ def folder_as_text(app, env, node, contnode):
     if page not in env.found_docs:
         return contnode
     return make_refnode(app.builder, node["refdoc"], page, None, contnode)
+
+
+def as_written(app, what, name, obj, options, lines):
+    """Docstrings are plain text in columns, as `help()` shows them."""
+    lines[:] = ["::", "", *("   " + line for line in lines), ""] if any(lines) else []
 
 
 def setup(app):
@@ -61,4 +65,5 @@ def setup(app):
             source[0] += "\n" + contents
 
     app.connect("source-read", add_contents)
+    app.connect("autodoc-process-docstring", as_written)
     app.connect("missing-reference", folder_as_text)

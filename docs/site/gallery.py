@@ -14,13 +14,15 @@ MODELS += [(f"verification/hard_problems/{name}.yaml", part) for name, part in [
 MODELS += [("verification/plastic_necking/bar.yaml", 1)]
 
 
-def caption(file):
-    """The comment a model file begins with, or the heading of a deck."""
+def texts(file):
+    """Title of a model, and the comment its file begins with; of a deck its heading, cut at the colon."""
     lines = file.read_text().split("\n")
     if lines[0].lower() == "*heading":
-        return lines[1]
+        title, _, comment = lines[1].partition(": ")
+        return title, comment
+    title = next(line.removeprefix("title: ") for line in lines if line.startswith("title: "))
     comment = itertools.takewhile(lambda line: line.startswith("#"), lines)
-    return " ".join(line.strip("# ") for line in comment)
+    return title, " ".join(line.strip("# ") for line in comment)
 
 
 def write(root, folder, say=print):
@@ -38,8 +40,8 @@ def write(root, folder, say=print):
             drawn = [i for i in result.increments if i.has_fields]
             axes = drawn[round(part * (len(drawn) - 1))].plot(file=folder / f"{name}.png")
             pyplot.close(axes.figure)
-            title = result.summary["title"]
+            title, comment = texts(root / path)
             page += [f"## {title}", "", f"![{title}]({name}.png)", "",
-                     f"{caption(root / path)} ([{pathlib.Path(path).name}](../{path}))", ""]
+                     f"{comment} ([{pathlib.Path(path).name}](../{path}))", ""]
         say(f"gallery: {path}")
     (folder / "gallery.md").write_text("\n".join(page))

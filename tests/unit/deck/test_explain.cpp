@@ -131,7 +131,7 @@ TEST(Reference, EveryLinkHasItsHeadingAndEveryHeadingItsLink) {
 
 TEST(Reference, KeysHaveTheirLines) {
   const std::string page = model_reference();
-  EXPECT_NE(page.find("\n##### `contact[].friction.coulomb`\n"), std::string::npos);
+  EXPECT_NE(page.find("\n#### `contact[].friction.coulomb`\n"), std::string::npos);
   EXPECT_NE(page.find("- **mu** (a number \\>= 0, required): Coefficient of friction.\n"),
             std::string::npos)
       << page.substr(page.find("`contact[].friction.coulomb`"), 300);
