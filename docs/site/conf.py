@@ -31,6 +31,8 @@ html_static_path = []
 html_show_sphinx = False
 # Debian's MathJax, copied beside the pages: the site needs no network.
 mathjax_path = "mathjax/MathJax.js?config=TeX-AMS_HTML"
+mathjax2_config = {"tex2jax": {"processClass": "math"}}  # formulas alone: `$` elsewhere is a dollar
+myst_update_mathjax = False
 
 breathe_projects = {"osculate": str(made / "doxygen" / "xml")}
 breathe_default_project = "osculate"

@@ -12,6 +12,7 @@ import unittest
 
 import numpy as np
 import osculate
+from osculate import _plot
 from models import YAML, block
 
 PROGRAM = os.environ["PROGRAM"]
@@ -485,6 +486,28 @@ class Meshes(unittest.TestCase):
             self.assertEqual(pathlib.Path(file).read_bytes()[:4], b"\x89PNG")
         with self.assertRaisesRegex(KeyError, "no column"):
             osculate.run(block()).plot_history("none")
+
+    def test_deformed_meshes_are_drawn(self):
+        result = osculate.run(block())
+        last = result.increments[-1]
+        axes = last.plot(np.arange(len(last["U"])))
+        faces = axes.collections[0].get_paths()
+        quads = [nodes for name, nodes in last.parts["bodies"].cells if name.startswith("quad")]
+        self.assertEqual(len(faces), sum(map(len, quads)))
+        moved = (last.parts["bodies"].points + 3 * last["U"])[quads[0][0, :4], :2]
+        drawn = {tuple(corner) for corner in last.plot("U", scale=3).collections[0].get_paths()[0].vertices[:4]}
+        self.assertEqual(drawn, {tuple(corner) for corner in moved})
+        with self.assertRaisesRegex(ValueError, "nodes has [0-9]+ rows; this one has 1"):
+            last.plot([1.0])
+        self.assertEqual(result._repr_png_()[:4], b"\x89PNG")
+        self.assertIsNone(osculate.Increment(result, "none", 0, 0.0, {}, {})._repr_png_())
+
+    def test_faces_inside_a_body_are_not_drawn(self):
+        two = [("hexahedron", np.array([[0, 1, 2, 3, 4, 5, 6, 7], [4, 5, 6, 7, 8, 9, 10, 11]])),
+               ("tetra10", np.array([[12, 13, 14, 15, 0, 0, 0, 0, 0, 0]]))]
+        faces = _plot.outer_faces(two)
+        self.assertEqual(len(faces), 10 + 4)
+        self.assertNotIn({4, 5, 6, 7}, [set(face) for face in faces])
 
 
 if __name__ == "__main__":
