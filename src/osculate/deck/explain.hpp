@@ -19,9 +19,9 @@ namespace osculate::deck {
 [[nodiscard]] std::string explain(const Spec& spec, std::string_view key);
 [[nodiscard]] std::string explain_model_key(std::string_view key);
 
-/// All keys as one page of Markdown: a heading for each that has keys below it, with a line for each of
-/// those: type, range, default, meaning, unit, words. Headings are linked to by their letters, digits,
-/// _ and -, as forges and Sphinx do.
+/// All keys as one page of Markdown: a heading for each that has keys below it, with a line for
+/// each of those: type, range, default, meaning, unit, words. Headings are linked to by their
+/// letters, digits, _ and -, as forges and Sphinx do.
 ///
 /// Tested by  tests/unit/deck/test_explain.cpp
 [[nodiscard]] std::string reference(const Spec& spec, std::string_view title);
