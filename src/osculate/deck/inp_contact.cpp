@@ -170,6 +170,11 @@ void add_contact_pair(InpModel& m, const Card& card, const InpInteraction& law, 
     m.pairs.push_back({find(pair, "name")->text, io::inp::capitals(law.name),
                        find(pair, "slave")->text, find(pair, "master")->text, clearance});
     put_laws(m, law, pair, clearance);
+    if (law.friction && inp_is_tied(law.behavior))
+      m.notes.push_back(fmt::format(
+          "line {}: what is tied is as stiff along the surface as across it (CalculiX: the stick "
+          "slope of its *FRICTION), and its gap at first stays",
+          card.at.line));
     if (const io::inp::Parameter* const adjust = io::inp::find_parameter(card, "ADJUST"))
       put_adjust(m, card, adjust->value, pair);
   }

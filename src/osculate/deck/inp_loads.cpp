@@ -125,6 +125,17 @@ void tell_of_several(const InpReading& r, const LoadLine& load, const std::strin
   }
 }
 
+/// CalculiX takes them where the bodies are, and their derivative softens vibrations.
+void tell_of_places(const InpReading& r, const LoadLine& load) {
+  const auto vibrates = [](const Card& card) { return card.keyword == "FREQUENCY"; };
+  if (!r.m.finite && std::ranges::none_of(r.m.deck.cards, vibrates)) return;
+  r.m.notes.push_back(
+      fmt::format("line {}: CENTRIF acts at the undeformed places: it does not grow where a body "
+                  "moves outwards, "
+                  "nor soften vibrations, as it does in CalculiX",
+                  load.line.at.line));
+}
+
 void read_centrifugal(const InpReading& r, const LoadLine& load) {
   const double speed = load.fields.real("the square of the angular velocity");
   std::array<double, 6> axis{};
@@ -143,6 +154,7 @@ void read_centrifugal(const InpReading& r, const LoadLine& load) {
       value.released = true;
     }
   tell_of_several(r, load, on, axis_number);
+  tell_of_places(r, load);
   set_condition(r.m, r.acting.parts[0].centrifugal, {on, axis_number}, speed, load.said, load.line,
                 true);
 }

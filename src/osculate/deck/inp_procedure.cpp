@@ -64,8 +64,9 @@ void read_increments(const InpModel& m, InpProcedure& procedure) {
   };
   procedure.increments = count(first);
   if (direct) return;
-  // They are cut where they must be, those in time also for their errors.
-  const int of_automatic = procedure.is("STATIC") || procedure.is("VISCO") ? 10 : 100;
+  // They are cut where they must be, those of *DYNAMIC also for their errors; what creeps within an
+  // increment has an error in proportion to it, and nothing cuts it.
+  const int of_automatic = procedure.is("STATIC") ? 10 : procedure.is("VISCO") ? 200 : 100;
   procedure.increments = std::min(procedure.increments, of_automatic);
   if (io::inp::find_parameter(card, "EXPLICIT")) return;
   (void)fields.real_or_zero("the smallest increment");

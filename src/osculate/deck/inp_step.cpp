@@ -10,10 +10,16 @@ namespace {
 
 bool is_swing(const InpWriting& w) { return w.procedure.is("STEADYSTATEDYNAMICS"); }
 
+/// With an amplitude over the total time, which goes on in the steps after its own. One over the
+/// time of a step ends with it, and what it has come to stays, as in CalculiX and Abaqus.
+bool goes_on(const InpWriting& w, const Condition& value) {
+  return !value.amplitude.empty() && w.tables.at(value.amplitude).of_total_time;
+}
+
 /// Said now, or with an amplitude that goes on; loads that end are written as 0.
 bool is_active(const InpWriting& w, const Condition& value) {
   if (is_swing(w)) return !value.released && value.swings && value.size != 0;
-  return value.fresh || value.released || !value.amplitude.empty();
+  return value.fresh || value.released || goes_on(w, value);
 }
 
 /// The list of a step, which may be there from the real parts.
@@ -152,7 +158,7 @@ void put_loads(const InpWriting& w, InpActing& acting, bool imaginary) {
 void put_temperatures(const InpWriting& w, const InpActing& acting) {
   SourceNode list = inp_list(w.line);
   for (const auto& [on, value] : acting.temperatures) {
-    if (!value.fresh && value.amplitude.empty()) continue;
+    if (!value.fresh && !goes_on(w, value)) continue;
     SourceNode& entry = list.items.emplace_back(inp_map(value.line));
     put(entry, "on", inp_text(on, value.line));
     put(entry, "value", inp_number(value.size, value.line));

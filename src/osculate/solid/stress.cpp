@@ -123,15 +123,15 @@ Eigen::RowVectorXd basis(CellType type, std::size_t points, const Vec3& xi) {
 }
 
 /// As many terms as there are points along the axes.
-Eigen::RowVectorXd reduced_basis(std::size_t points, const Vec2& xi) {
+Eigen::RowVectorXd product_basis(std::size_t points, const Vec2& xi) {
   if (points == 1) return Eigen::RowVectorXd::Ones(1);
   return Eigen::RowVector4d(1, xi.x(), xi.y(), xi.prod());
 }
-Eigen::RowVectorXd reduced_basis(std::size_t points, const Vec3& xi) {
+Eigen::RowVectorXd product_basis(std::size_t points, const Vec3& xi) {
   if (points == 1) return Eigen::RowVectorXd::Ones(1);
   if (points == 2) return Eigen::RowVector2d(1, xi.z());  // wedge6
   Eigen::RowVectorXd b(8);
-  b << reduced_basis(4, Vec2(xi.head<2>())), xi.z() * reduced_basis(4, Vec2(xi.head<2>()));
+  b << product_basis(4, Vec2(xi.head<2>())), xi.z() * product_basis(4, Vec2(xi.head<2>()));
   return b;
 }
 
@@ -139,7 +139,7 @@ template <int Dim>
 Eigen::MatrixXd make_reduced_extrapolation(CellType type) {
   const std::vector<Vec<Dim>>& points = reduced_rule_of<Dim>(type).points;
   return extrapolation<Dim>(type, points,
-                            [&](const Vec<Dim>& xi) { return reduced_basis(points.size(), xi); });
+                            [&](const Vec<Dim>& xi) { return product_basis(points.size(), xi); });
 }
 /// Linear along the beam, quadratic across.
 const Eigen::MatrixXd& beam_extrapolation() {
@@ -168,8 +168,11 @@ const Eigen::MatrixXd& reduced_extrapolation_of(CellType type) {
 template <int Dim>
 Eigen::MatrixXd make_extrapolation(CellType type, bool ring = false) {
   const std::vector<Vec<Dim>>& points = rule_of<Dim>(type, ring).points;
-  return extrapolation<Dim>(type, points,
-                            [&](const Vec<Dim>& xi) { return basis(type, points.size(), xi); });
+  return extrapolation<Dim>(type, points, [&](const Vec<Dim>& xi) -> Eigen::RowVectorXd {
+    if (type == corner_cell<Dim>)
+      return product_basis(points.size(), xi);  // the points' own values
+    return basis(type, points.size(), xi);
+  });
 }
 
 /// Values at the nodes from those at the points.

@@ -81,6 +81,38 @@ TEST(InpLoadParts, AmplitudesEndWhereTheirForcesAreReplaced) {
               HasSubstr("has this load with another amplitude in the same step"));
 }
 
+// CalculiX: a cell pulled by 5 with the amplitude 0.5 to 1 moves by 0.0182 at the end of its step
+// and of the next one.
+TEST(InpLoadParts, WhatAnAmplitudeOfAStepHasComeToStays) {
+  const std::string table = "*AMPLITUDE, NAME=T\n0., 0., 1., 3.\n";
+  struct Case {
+    std::string keyword, at_one, at_three;
+  };
+  for (const Case& c : {Case{"*CLOAD", "A, 3, 1.\n", "A, 3, 3.\n"},
+                        Case{"*DLOAD", "EALL, P2, 1.\n", "EALL, P2, 3.\n"},
+                        Case{"*BOUNDARY", "B, 3, 3, 1e-3\n", "B, 3, 3, 3e-3\n"}}) {
+    SCOPED_TRACE(c.keyword);
+    const std::string first = table + a_step(c.keyword + ", AMPLITUDE=T\n" + c.at_one);
+    expect_same(first + a_step(""), first + a_step(c.keyword + "\n" + c.at_three));
+  }
+  const std::string total = "*AMPLITUDE, NAME=T, TIME=TOTAL TIME\n0., 0., 2., 4.\n";
+  expect_same(total + a_step("*CLOAD, AMPLITUDE=T\nA, 3, 1.\n") + a_step(""),
+              a_step("*CLOAD\nA, 3, 2.\n") + a_step("*CLOAD\nA, 3, 4.\n"));
+}
+
+TEST(InpLoadParts, PlacesOfCentrifugalForcesAreToldOfWhereTheyMatter) {
+  const auto told = [](const std::string& step) {
+    const std::string load =
+        step + "\n*STATIC\n*DLOAD\nEALL, CENTRIF, 1., 0., 0., 0., 0., 0., 1.\n*END STEP\n";
+    const TranslatedDeck deck = translate_deck(two_cubes(load), "a.inp");
+    return std::ranges::any_of(deck.notes, [](const std::string& note) {
+      return note.find("at the undeformed places") != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(told("*STEP, NLGEOM"));
+  EXPECT_FALSE(told("*STEP"));
+}
+
 TEST(InpLoadParts, PressuresOfLaterStepsReplaceThoseOfTheirFacets) {
   expect_same(a_step("*DLOAD\nEALL, P2, 1.\n") + a_step("*DLOAD\n2, P2, 10.\n") +
                   a_step("*DLOAD\nEA, P2, 100.\n2, P2, 7.\n2, P2, 3.\n"),

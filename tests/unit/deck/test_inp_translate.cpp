@@ -109,9 +109,6 @@ amplitudes:
     - [0, 0]
     - [0.5, 1]
     - [1, 0]
-  UPANDDOWN_2:
-    - [0, 0]
-    - [1, 1]
 steps:
   - name: step_1
     increments: 8
@@ -139,8 +136,6 @@ steps:
     forces:
       - {on: TOP, fz: -2}
       - {on: node 17, fz: -2.5}
-    pressure:
-      - {on: P2 of UP, value: 10, amplitude: UPANDDOWN_2}
 output:
   frd:
     - of: [U]

@@ -184,5 +184,36 @@ TEST(VolumeStress, LinearStressIsExtrapolatedExactly) {
   }
 }
 
+/// Cells with as many points as corners: between the nodal values the points' own come out again.
+template <int Dim, class Shape>
+void expect_points_between_nodes(const Section<Dim>& s, cell::CellType type,
+                                 const Coordinates<Dim>& x, const Shape& shape) {
+  Coordinates<Dim> u = 0 * x;
+  for (Eigen::Index k = 0; k < u.size(); ++k)
+    u(k) = 1e-3 * std::sin(3.0 * static_cast<double>(k) + 1);
+  const CellStress<Dim> at = stress_at_points(s, type, x, u);
+  const NodalStress<Dim> nodal = nodal_stress(s, type, x, u);
+  ASSERT_EQ(at.count, nodal.count);
+  for (std::size_t q = 0; q < static_cast<std::size_t>(at.count); ++q) {
+    Vec<components<Dim>> between = Vec<components<Dim>>::Zero();
+    const auto n = shape(at.point[q].xi);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(nodal.count); ++k)
+      between += n[k] * nodal.stress[k];
+    EXPECT_LT((between - at.point[q].stress).norm(), 1e-14 * at.point[q].stress.norm()) << q;
+  }
+}
+
+TEST(Stress, OfFourAndEightPointsGoesThroughThem) {
+  const Section<2> plane{Assumption::plane_strain, Kinematics::small, Formulation::bbar, 1,
+                         material::LinearElastic{7, 0.3, 0}};
+  expect_points_between_nodes<2>(
+      plane, cell::CellType::quad4, sample_cell(cell::CellType::quad4, 0, false),
+      [](const Vec2& xi) { return cell::area_shape(cell::CellType::quad4, xi).n; });
+  const Section<3> space{Kinematics::small, Formulation::bbar, material::LinearElastic{7, 0.3, 0}};
+  expect_points_between_nodes<3>(
+      space, cell::CellType::hex8, sample_volume(cell::CellType::hex8, 0, false),
+      [](const Vec3& xi) { return cell::volume_shape(cell::CellType::hex8, xi).n; });
+}
+
 }  // namespace
 }  // namespace osculate::solid::testing
