@@ -165,12 +165,19 @@ Taylor<Order> outer(const Line& a, const Line& b) {
   return out;
 }
 
+/// The distances of a place of the quadrilateral from its borders, over its width.
+template <int Order>
+struct Distances {
+  std::array<Taylor<Order>, 2> u, v;
+  explicit Distances(const Vec2& xi)
+      : u{linear<Order>(0.5 * (1 + xi.x()), 0.5, 0), linear<Order>(0.5 * (1 - xi.x()), -0.5, 0)},
+        v{linear<Order>(0.5 * (1 + xi.y()), 0, 0.5), linear<Order>(0.5 * (1 - xi.y()), 0, -0.5)} {}
+};
+
 /// put(j, B_j) for each point.
 template <int Order, class Put>
 void quad_basis(const Vec2& xi, const Put& put) {
-  const std::array<Taylor<Order>, 2> u{linear<Order>(0.5 * (1 + xi.x()), 0.5, 0),
-                                       linear<Order>(0.5 * (1 - xi.x()), -0.5, 0)},
-      v{linear<Order>(0.5 * (1 + xi.y()), 0, 0.5), linear<Order>(0.5 * (1 - xi.y()), 0, -0.5)};
+  const Distances<Order> from(xi);
   const std::array<Line, 4> bu = cubics(xi.x()), bv = cubics(xi.y());
   for (std::size_t j = 0; j < 4; ++j)
     for (std::size_t i = 0; i < 4; ++i) {
@@ -179,7 +186,7 @@ void quad_basis(const Vec2& xi, const Put& put) {
         put(quad_point(i, j), b);
         continue;
       }
-      const Taylor<Order> part = b * share(u[i - 1], v[j - 1]);
+      const Taylor<Order> part = b * share(from.u[i - 1], from.v[j - 1]);
       put(quad_point(i, j), part);
       put(quad_point(i, j, true), b - part);
     }
@@ -239,6 +246,32 @@ void set_shape(const GregoryWeights& patch, const Vec2& xi, cell::FacetShape& sh
     add_points<Order>(patch, basis, k, shape);
 }
 
+/// The sum over the points line by line, with one version of the inner ones; then what the other
+/// version adds by its share.
+GregoryJet quad_jet(const GregoryPoints& points, const Vec2& xi) {
+  const std::array<Line, 4> bu = cubics(xi.x()), bv = cubics(xi.y());
+  GregoryJet sum;  // Taylor coefficients
+  sum.fill(Four::Zero());
+  for (std::size_t j = 0; j < 4; ++j) {
+    std::array<Four, 3> line{Four::Zero(), Four::Zero(), Four::Zero()};
+    for (std::size_t i = 0; i < 4; ++i) {
+      const bool inner = i % 3 != 0 && j % 3 != 0;
+      for (std::size_t d = 0; d < 3; ++d) line[d] += bu[i][d] * points[quad_point(i, j, inner)];
+    }
+    for (std::size_t d = 0; d < sum.size(); ++d) sum[d] += bv[j][powers[d][1]] * line[powers[d][0]];
+  }
+  const Distances<2> from(xi);
+  for (std::size_t j = 1; j < 3; ++j)
+    for (std::size_t i = 1; i < 3; ++i) {
+      const Taylor<2> part = outer<2>(bu[i], bv[j]) * share(from.u[i - 1], from.v[j - 1]);
+      const Four apart = points[quad_point(i, j)] - points[quad_point(i, j, true)];
+      for (std::size_t d = 0; d < sum.size(); ++d) sum[d] += part.c[d] * apart;
+    }
+  sum[3] *= 2;
+  sum[5] *= 2;
+  return sum;
+}
+
 }  // namespace
 
 GregoryBasis gregory_basis(bool triangle, const Vec2& xi) {
@@ -248,10 +281,11 @@ GregoryBasis gregory_basis(bool triangle, const Vec2& xi) {
 }
 
 GregoryJet gregory_jet(bool triangle, const GregoryPoints& points, const Vec2& xi) {
+  if (!triangle) return quad_jet(points, xi);
   GregoryBasis basis;
   set_basis<2>(triangle, xi, basis);
   GregoryJet jet;
-  jet.fill(Eigen::Array4d::Zero());
+  jet.fill(Four::Zero());
   for (std::size_t j = 0; j < gregory_points; ++j)
     for (std::size_t d = 0; d < jet.size(); ++d) jet[d] += basis[d][j] * points[j];
   return jet;
