@@ -171,12 +171,19 @@ void MatrixBuilder::add_to_row(Index row) {
 
 void MatrixBuilder::add_block(std::span<const Index> unknowns, const double* values,
                               std::ptrdiff_t stride) {
-  order(unknowns);
-  for (const std::size_t i : order_) {
+  add_block(unknowns, unknowns, values, stride);
+}
+
+void MatrixBuilder::add_block(std::span<const Index> rows, std::span<const Index> columns,
+                              const double* values, std::ptrdiff_t stride) {
+  order(columns);
+  if (order_.empty()) return;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i] < 0) continue;
     for (std::size_t k = 0; k < order_.size(); ++k)
       row_[k] =
           values[static_cast<std::ptrdiff_t>(i) + static_cast<std::ptrdiff_t>(order_[k]) * stride];
-    add_to_row(unknowns[i]);
+    add_to_row(rows[i]);
   }
 }
 

@@ -62,6 +62,8 @@ class MatrixBuilder {
   /// Requires   unknowns distinct; rows and columns of negative ones are left out, and so are zeros
   ///            that are not in the pattern
   void add_block(std::span<const Index> unknowns, const double* values, std::ptrdiff_t stride);
+  void add_block(std::span<const Index> rows, std::span<const Index> columns, const double* values,
+                 std::ptrdiff_t stride);
   /// Adds the product of two factors in the same way, the first with a row for each of `rows`, the
   /// second with a column for each of `columns`; columns may be named more than once.
   void add_product(std::span<const Index> rows, const Eigen::Ref<const Eigen::MatrixXd>& first,

@@ -250,26 +250,35 @@ void set_shape(const GregoryWeights& patch, const Vec2& xi, cell::FacetShape& sh
 /// version adds by its share.
 GregoryJet quad_jet(const GregoryPoints& points, const Vec2& xi) {
   const std::array<Line, 4> bu = cubics(xi.x()), bv = cubics(xi.y());
-  GregoryJet sum;  // Taylor coefficients
-  sum.fill(Four::Zero());
+  Four r = Four::Zero(), r1 = r, r2 = r, r11 = r, r12 = r, r22 = r;  // Taylor coefficients
   for (std::size_t j = 0; j < 4; ++j) {
-    std::array<Four, 3> line{Four::Zero(), Four::Zero(), Four::Zero()};
-    for (std::size_t i = 0; i < 4; ++i) {
-      const bool inner = i % 3 != 0 && j % 3 != 0;
-      for (std::size_t d = 0; d < 3; ++d) line[d] += bu[i][d] * points[quad_point(i, j, inner)];
-    }
-    for (std::size_t d = 0; d < sum.size(); ++d) sum[d] += bv[j][powers[d][1]] * line[powers[d][0]];
+    const bool inner = j % 3 != 0;
+    const Four a = points[quad_point(0, j)], b = points[quad_point(1, j, inner)],
+               c = points[quad_point(2, j, inner)], d = points[quad_point(3, j)];
+    const auto line = [&](std::size_t k) -> Four {
+      return bu[0][k] * a + bu[1][k] * b + bu[2][k] * c + bu[3][k] * d;
+    };
+    const Four l = line(0), l1 = line(1), l11 = line(2);
+    r += bv[j][0] * l;
+    r1 += bv[j][0] * l1;
+    r2 += bv[j][1] * l;
+    r11 += bv[j][0] * l11;
+    r12 += bv[j][1] * l1;
+    r22 += bv[j][2] * l;
   }
   const Distances<2> from(xi);
   for (std::size_t j = 1; j < 3; ++j)
     for (std::size_t i = 1; i < 3; ++i) {
       const Taylor<2> part = outer<2>(bu[i], bv[j]) * share(from.u[i - 1], from.v[j - 1]);
       const Four apart = points[quad_point(i, j)] - points[quad_point(i, j, true)];
-      for (std::size_t d = 0; d < sum.size(); ++d) sum[d] += part.c[d] * apart;
+      r += part.c[0] * apart;
+      r1 += part.c[1] * apart;
+      r2 += part.c[2] * apart;
+      r11 += part.c[3] * apart;
+      r12 += part.c[4] * apart;
+      r22 += part.c[5] * apart;
     }
-  sum[3] *= 2;
-  sum[5] *= 2;
-  return sum;
+  return {r, r1, r2, 2 * r11, r12, 2 * r22};
 }
 
 }  // namespace
