@@ -1,7 +1,7 @@
 #pragma once
 #include <array>
 
-#include "osculate/cell/cell_type.hpp"
+#include "osculate/cell/facet_shape.hpp"
 
 namespace osculate::cell {
 
@@ -33,6 +33,21 @@ template <class NodeAt>
           zero,
           0.25 * twist,
           zero};
+}
+
+/// Shape functions of quad4 up to the second derivatives, put where they are kept: all of
+/// FacetShape is many times as much to copy.
+inline void set_bilinear(const Vec2& xi, FacetShape& s) {
+  constexpr std::array<double, 4> first{-1, 1, 1, -1}, second{-1, -1, 1, 1};
+  s.count = 4;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const double a = 0.5 * (1 + first[k] * xi.x()), b = 0.5 * (1 + second[k] * xi.y());
+    s.n[0][k] = a * b;
+    s.n[1][k] = 0.5 * first[k] * b;
+    s.n[2][k] = 0.5 * second[k] * a;
+    s.n[3][k] = s.n[5][k] = 0;
+    s.n[4][k] = 0.25 * first[k] * second[k];
+  }
 }
 
 /// The types that `linear_facet` knows.

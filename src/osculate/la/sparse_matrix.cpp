@@ -111,41 +111,80 @@ void MatrixBuilder::order(std::span<const Index> columns) {
     if (columns[j] >= 0) order_.push_back(j);
   std::sort(order_.begin(), order_.end(),
             [&](std::size_t a, std::size_t b) { return columns[a] < columns[b]; });
+  sorted_.clear();
+  for (const std::size_t j : order_) sorted_.push_back(columns[j]);
   places_.assign(order_.size(), 0);
+  row_.resize(order_.size());
+  all_found_ = false;
 }
 
-template <class ValueOf>
-void MatrixBuilder::add_to_row(Index row, std::span<const Index> columns, const ValueOf& value_of) {
-  const Index* const first = matrix_.column.data() + matrix_.row_start[at(row)];
-  const std::ptrdiff_t count = matrix_.row_start[at(row) + 1] - matrix_.row_start[at(row)];
-  double* const sums = matrix_.value.data() + matrix_.row_start[at(row)];
-  std::ptrdiff_t next = 0;
-  for (std::size_t k = 0; k < order_.size(); ++k) {
-    const Index column = columns[order_[k]];
-    std::ptrdiff_t place = places_[k];  // where it was in the row before
-    if (place >= count || first[place] != column) place = next;
-    if (place >= count || first[place] != column)
-      place =
-          std::lower_bound(first + std::max<std::ptrdiff_t>(0, next - 1), first + count, column) -
-          first;
-    const double value = value_of(order_[k]);
-    if (place < count && first[place] == column) {
-      sums[place] += value;
-      places_[k] = place;
-      next = place + 1;
-    } else if (value != 0.0) {
-      aside_.push_back({{row, column}, value});
-    }
+namespace {
+
+/// The first of the sorted columns that is not less than this one. Without branches: where it is
+/// can not be predicted, and several searches go on at a time.
+std::ptrdiff_t first_not_below(std::span<const Index> sorted, Index column) {
+  const Index* from = sorted.data();
+  for (std::size_t n = sorted.size(); n > 1;) {
+    const std::size_t half = n / 2;
+    from += half * static_cast<std::size_t>(from[half - 1] < column);
+    n -= half;
   }
+  return from - sorted.data() + static_cast<std::ptrdiff_t>(*from < column);
+}
+
+}  // namespace
+
+/// Whether the columns are where they were in the row before.
+bool MatrixBuilder::are_in_places(std::span<const Index> row) const {
+  if (!all_found_ || at(places_.back()) >= row.size()) return false;
+  Index differs = 0;
+  for (std::size_t k = 0; k < places_.size(); ++k) differs |= row[at(places_[k])] ^ sorted_[k];
+  return differs == 0;
+}
+
+void MatrixBuilder::find_places(std::span<const Index> row) {
+  all_found_ = true;
+  std::ptrdiff_t next = 0;
+  for (std::size_t k = 0; k < places_.size(); ++k) {
+    const auto is_next = [&] {
+      return static_cast<std::size_t>(next) < row.size() &&
+             row[static_cast<std::size_t>(next)] == sorted_[k];
+    };
+    if (!is_next()) next = first_not_below(row, sorted_[k]);
+    const bool found = is_next();
+    places_[k] = found ? static_cast<Index>(next++) : -1;
+    all_found_ = all_found_ && found;
+  }
+}
+
+void MatrixBuilder::add_to_row(Index row) {
+  const Index begin = matrix_.row_start[at(row)], end = matrix_.row_start[at(row) + 1];
+  const std::span columns(matrix_.column.data() + begin, matrix_.column.data() + end);
+  double* const sums = matrix_.value.data() + begin;
+  if (!are_in_places(columns)) find_places(columns);
+  for (std::size_t k = 0; k < places_.size(); ++k)
+    if (places_[k] >= 0)
+      sums[places_[k]] += row_[k];
+    else if (row_[k] != 0.0)
+      aside_.push_back({{row, sorted_[k]}, row_[k]});
 }
 
 void MatrixBuilder::add_block(std::span<const Index> unknowns, const double* values,
                               std::ptrdiff_t stride) {
-  order(unknowns);
-  for (const std::size_t i : order_)
-    add_to_row(unknowns[i], unknowns, [row = values + i, stride](std::size_t j) {
-      return row[static_cast<std::ptrdiff_t>(j) * stride];
-    });
+  add_block(unknowns, unknowns, values, stride);
+}
+
+void MatrixBuilder::add_block(std::span<const Index> rows, std::span<const Index> columns,
+                              const double* values, std::ptrdiff_t stride) {
+  order(columns);
+  if (order_.empty()) return;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i] < 0) continue;
+    for (std::size_t k = 0; k < order_.size(); ++k)
+      row_[k] =
+          values[static_cast<std::ptrdiff_t>(i) + static_cast<std::ptrdiff_t>(order_[k]) * stride];
+    add_to_row(rows[i]);
+  }
 }
 
 void MatrixBuilder::add_product(std::span<const Index> rows,
@@ -153,16 +192,22 @@ void MatrixBuilder::add_product(std::span<const Index> rows,
                                 std::span<const Index> columns,
                                 const Eigen::Ref<const Eigen::MatrixXd>& second) {
   order(columns);
+  if (order_.empty()) return;
+  const auto n = static_cast<Eigen::Index>(order_.size());
   const Eigen::Index rank = first.cols();
+  factor_.resize(order_.size() * static_cast<std::size_t>(rank));
+  Eigen::Map<Eigen::MatrixXd> factor(factor_.data(), n, rank);
+  for (Eigen::Index k = 0; k < n; ++k)
+    factor.row(k) =
+        second.col(static_cast<Eigen::Index>(order_[static_cast<std::size_t>(k)])).transpose();
+  Eigen::Map<Eigen::VectorXd> sum(row_.data(), n);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const auto row = first.row(static_cast<Eigen::Index>(i));
     if (rows[i] < 0 || row.isZero(0)) continue;
-    add_to_row(rows[i], columns, [&](std::size_t j) {
-      double sum = 0;
-      for (Eigen::Index r = 0; r < rank; ++r)
-        sum += row[r] * second(r, static_cast<Eigen::Index>(j));
-      return sum;
-    });
+    sum.setZero();
+    for (Eigen::Index r = 0; r < rank; ++r)
+      if (row[r] != 0.0) sum += row[r] * factor.col(r);
+    add_to_row(rows[i]);
   }
 }
 

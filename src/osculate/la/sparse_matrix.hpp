@@ -62,6 +62,8 @@ class MatrixBuilder {
   /// Requires   unknowns distinct; rows and columns of negative ones are left out, and so are zeros
   ///            that are not in the pattern
   void add_block(std::span<const Index> unknowns, const double* values, std::ptrdiff_t stride);
+  void add_block(std::span<const Index> rows, std::span<const Index> columns, const double* values,
+                 std::ptrdiff_t stride);
   /// Adds the product of two factors in the same way, the first with a row for each of `rows`, the
   /// second with a column for each of `columns`; columns may be named more than once.
   void add_product(std::span<const Index> rows, const Eigen::Ref<const Eigen::MatrixXd>& first,
@@ -93,8 +95,10 @@ class MatrixBuilder {
   [[nodiscard]] bool has(std::span<const Index> rows, std::span<const Index> columns);
   [[nodiscard]] bool waits() const { return !blocks_.empty() || !pending_.empty(); }
   void order(std::span<const Index> columns);
-  template <class ValueOf>
-  void add_to_row(Index row, std::span<const Index> columns, const ValueOf& value_of);
+  [[nodiscard]] bool are_in_places(std::span<const Index> row) const;
+  void find_places(std::span<const Index> row);
+  /// Adds `row_`.
+  void add_to_row(Index row);
   void merge();
   void grow();
 
@@ -105,8 +109,12 @@ class MatrixBuilder {
   std::vector<Entry> aside_;           ///< added outside the pattern, in the order of the calls
   std::vector<Place> grown_;           ///< in the order of the growth
   std::uint64_t version_ = 1;
-  std::vector<std::size_t> order_;      ///< of the columns of a block
-  std::vector<std::ptrdiff_t> places_;  ///< of these columns in the row before
+  std::vector<std::size_t> order_;  ///< of the columns of a block
+  std::vector<Index> sorted_;       ///< these columns
+  std::vector<Index> places_;       ///< of them in the row before, -1 of those outside the pattern
+  bool all_found_ = false;          ///< whether none is
+  std::vector<double> row_;         ///< of the block, in this order
+  std::vector<double> factor_;      ///< second one of a product, likewise
 };
 
 }  // namespace osculate::la

@@ -30,11 +30,15 @@ class BasicAssembler {
   /// K(i, j) for all pairs of `block_dofs`. Blocks without rigid nodes and equations (those of all
   /// cells but a few) need no expansion.
   ///
-  /// Requires   k stored by columns
+  /// Requires   k stored by columns; with `corner`, zero in rows and columns from there on
   template <class Matrix>
-  void add_block(std::span<const Dof> block_dofs, const Matrix& k) {
+  void add_block(std::span<const Dof> block_dofs, const Matrix& k, std::size_t corner = 0) {
     if (direct(block_dofs, unknowns_)) {
-      matrix_.add_block(unknowns_, k.data(), k.outerStride());
+      const std::span<const Index> all(unknowns_);
+      const auto first = corner > 0 ? all.first(corner) : all;
+      matrix_.add_block(first, all, k.data(), k.outerStride());
+      if (corner > 0)
+        matrix_.add_block(all.subspan(corner), first, k.data() + corner, k.outerStride());
       return;
     }
     expand(block_dofs, rows_, row_end_);

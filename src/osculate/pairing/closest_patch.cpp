@@ -46,7 +46,7 @@ double inside_part(cell::CellType type, const Vec2& xi, const Vec2& step) {
 void polish(const PatchQuery& q, Vec2& xi, DistanceJet2& j) {
   for (int it = 0; it < 3 && projection::positive(j.bend); ++it) {
     const Vec2 next_xi = xi + projection::descent(j);
-    if (!next_xi.allFinite() || least_room(q.type, next_xi) < 0) return;
+    if (next_xi == xi || !next_xi.allFinite() || least_room(q.type, next_xi) < 0) return;
     const DistanceJet2 next = distance_at(q, next_xi);
     if (!(next.slope.norm() < j.slope.norm())) return;
     xi = next_xi;

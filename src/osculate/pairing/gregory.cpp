@@ -165,12 +165,19 @@ Taylor<Order> outer(const Line& a, const Line& b) {
   return out;
 }
 
+/// The distances of a place of the quadrilateral from its borders, over its width.
+template <int Order>
+struct Distances {
+  std::array<Taylor<Order>, 2> u, v;
+  explicit Distances(const Vec2& xi)
+      : u{linear<Order>(0.5 * (1 + xi.x()), 0.5, 0), linear<Order>(0.5 * (1 - xi.x()), -0.5, 0)},
+        v{linear<Order>(0.5 * (1 + xi.y()), 0, 0.5), linear<Order>(0.5 * (1 - xi.y()), 0, -0.5)} {}
+};
+
 /// put(j, B_j) for each point.
 template <int Order, class Put>
 void quad_basis(const Vec2& xi, const Put& put) {
-  const std::array<Taylor<Order>, 2> u{linear<Order>(0.5 * (1 + xi.x()), 0.5, 0),
-                                       linear<Order>(0.5 * (1 - xi.x()), -0.5, 0)},
-      v{linear<Order>(0.5 * (1 + xi.y()), 0, 0.5), linear<Order>(0.5 * (1 - xi.y()), 0, -0.5)};
+  const Distances<Order> from(xi);
   const std::array<Line, 4> bu = cubics(xi.x()), bv = cubics(xi.y());
   for (std::size_t j = 0; j < 4; ++j)
     for (std::size_t i = 0; i < 4; ++i) {
@@ -179,7 +186,7 @@ void quad_basis(const Vec2& xi, const Put& put) {
         put(quad_point(i, j), b);
         continue;
       }
-      const Taylor<Order> part = b * share(u[i - 1], v[j - 1]);
+      const Taylor<Order> part = b * share(from.u[i - 1], from.v[j - 1]);
       put(quad_point(i, j), part);
       put(quad_point(i, j, true), b - part);
     }
@@ -239,6 +246,41 @@ void set_shape(const GregoryWeights& patch, const Vec2& xi, cell::FacetShape& sh
     add_points<Order>(patch, basis, k, shape);
 }
 
+/// The sum over the points line by line, with one version of the inner ones; then what the other
+/// version adds by its share.
+GregoryJet quad_jet(const GregoryPoints& points, const Vec2& xi) {
+  const std::array<Line, 4> bu = cubics(xi.x()), bv = cubics(xi.y());
+  Four r = Four::Zero(), r1 = r, r2 = r, r11 = r, r12 = r, r22 = r;  // Taylor coefficients
+  for (std::size_t j = 0; j < 4; ++j) {
+    const bool inner = j % 3 != 0;
+    const Four a = points[quad_point(0, j)], b = points[quad_point(1, j, inner)],
+               c = points[quad_point(2, j, inner)], d = points[quad_point(3, j)];
+    const auto line = [&](std::size_t k) -> Four {
+      return bu[0][k] * a + bu[1][k] * b + bu[2][k] * c + bu[3][k] * d;
+    };
+    const Four l = line(0), l1 = line(1), l11 = line(2);
+    r += bv[j][0] * l;
+    r1 += bv[j][0] * l1;
+    r2 += bv[j][1] * l;
+    r11 += bv[j][0] * l11;
+    r12 += bv[j][1] * l1;
+    r22 += bv[j][2] * l;
+  }
+  const Distances<2> from(xi);
+  for (std::size_t j = 1; j < 3; ++j)
+    for (std::size_t i = 1; i < 3; ++i) {
+      const Taylor<2> part = outer<2>(bu[i], bv[j]) * share(from.u[i - 1], from.v[j - 1]);
+      const Four apart = points[quad_point(i, j)] - points[quad_point(i, j, true)];
+      r += part.c[0] * apart;
+      r1 += part.c[1] * apart;
+      r2 += part.c[2] * apart;
+      r11 += part.c[3] * apart;
+      r12 += part.c[4] * apart;
+      r22 += part.c[5] * apart;
+    }
+  return {r, r1, r2, 2 * r11, r12, 2 * r22};
+}
+
 }  // namespace
 
 GregoryBasis gregory_basis(bool triangle, const Vec2& xi) {
@@ -248,10 +290,11 @@ GregoryBasis gregory_basis(bool triangle, const Vec2& xi) {
 }
 
 GregoryJet gregory_jet(bool triangle, const GregoryPoints& points, const Vec2& xi) {
+  if (!triangle) return quad_jet(points, xi);
   GregoryBasis basis;
   set_basis<2>(triangle, xi, basis);
   GregoryJet jet;
-  jet.fill(Eigen::Array4d::Zero());
+  jet.fill(Four::Zero());
   for (std::size_t j = 0; j < gregory_points; ++j)
     for (std::size_t d = 0; d < jet.size(); ++d) jet[d] += basis[d][j] * points[j];
   return jet;

@@ -24,6 +24,11 @@ template <class T>
   return a.x * b.y - a.y * b.x;
 }
 
+template <class T>
+[[nodiscard]] PlanePoint<double> plain(const PlanePoint<T>& p) {
+  return {core::value(p.x), core::value(p.y)};
+}
+
 /// A convex polygon, counter-clockwise. Two quadrilaterals have at most eight common corners.
 template <class T>
 struct Polygon {
@@ -44,34 +49,30 @@ template <class T>
   return 0.5 * twice;
 }
 
-/// The part of `p` on the left of the line from `a` to `b`. A corner within `tolerance` of the line
-/// counts as on it and stays where it is: edges that lie on each other are not cut (the place of
-/// their intersection is arbitrary, its derivative without bound).
+/// Sets `out` to the part of `p` on the left of the line from `a` to `b`. A corner within
+/// `tolerance` of the line counts as on it and stays where it is: edges that lie on each other are
+/// not cut (the place of their intersection is arbitrary, its derivative without bound).
 ///
 /// Formula    corner where the edge c -> d crosses: c + t (d - c), t = h_c / (h_c - h_d), h the
 ///            distance from the line
 template <class T>
-[[nodiscard]] Polygon<T> left_part(const Polygon<T>& p, const PlanePoint<T>& a,
-                                   const PlanePoint<T>& b, double tolerance) {
-  const PlanePoint<T> way = b - a;
-  const double length = std::hypot(core::value(way.x), core::value(way.y));
-  std::array<T, 10> height;
+void left_part(const Polygon<T>& p, const PlanePoint<T>& a, const PlanePoint<T>& b,
+               double tolerance, Polygon<T>& out) {
+  const PlanePoint<double> from = plain(a), way = plain(b) - from;
+  const double length = std::hypot(way.x, way.y);
   std::array<int, 10> side{};
   for (std::size_t k = 0; k < p.count; ++k) {
-    height[k] = cross(way, p.corners[k] - a);
-    const double h = core::value(height[k]) / length;
+    const double h = cross(way, plain(p.corners[k]) - from) / length;
     side[k] = h > tolerance ? 1 : h < -tolerance ? -1 : 0;
   }
-  Polygon<T> out;
+  out.count = 0;
   for (std::size_t k = 0; k < p.count; ++k) {
     const std::size_t next = (k + 1) % p.count;
     if (side[k] >= 0) out.add(p.corners[k]);
-    if (side[k] * side[next] < 0) {
-      const T t = height[k] / (height[k] - height[next]);
-      out.add(p.corners[k] + t * (p.corners[next] - p.corners[k]));
-    }
+    if (side[k] * side[next] >= 0) continue;
+    const T here = cross(b - a, p.corners[k] - a), there = cross(b - a, p.corners[next] - a);
+    out.add(p.corners[k] + here / (here - there) * (p.corners[next] - p.corners[k]));
   }
-  return out;
 }
 
 /// Common part of two convex polygons; empty where it is no larger than `tolerance` wide.
@@ -81,15 +82,17 @@ template <class T>
 template <class T>
 [[nodiscard]] Polygon<T> common_part(const Polygon<T>& first, const Polygon<T>& second,
                                      double tolerance) {
-  Polygon<T> out = first;
+  std::array<Polygon<T>, 2> parts;  // by turns what is cut and what is left
+  const Polygon<T>* left = &first;
   double size = 0;
   for (std::size_t k = 0; k < second.count; ++k) {
     const PlanePoint<T>&a = second.corners[k], &b = second.corners[(k + 1) % second.count];
     size += std::hypot(core::value(b.x) - core::value(a.x), core::value(b.y) - core::value(a.y));
-    out = left_part(out, a, b, tolerance);
-    if (out.count < 3) return {};
+    left_part(*left, a, b, tolerance, parts[k % 2]);
+    left = &parts[k % 2];
+    if (left->count < 3) return {};
   }
-  return area_of(out) > tolerance * size ? out : Polygon<T>{};
+  return area_of(*left) > tolerance * size ? *left : Polygon<T>{};
 }
 
 }  // namespace osculate::pairing

@@ -194,30 +194,55 @@ bool evaluate_node(const PairDefinition<Dim>& pair, Points<Dim> x, const PointHi
   return true;
 }
 
+namespace {
+
+/// Derivatives of sum_k W_jk x_k, j = 0..N-1, by one variable: W's stand in `rates`, k by k.
+template <int Dim, int N>
+auto rates_of_sum(const double* rates, std::span<const Index> by, Points<Dim> x, Eigen::Index n) {
+  Eigen::Matrix<double, N, Dim, 0, N == Eigen::Dynamic ? cell::max_facet_nodes : N, Dim> sum;
+  sum.setZero(n, Dim);
+  for (const Index k : by) {
+    sum += Eigen::Map<const Vec<N>>(rates, n).lazyProduct(x[at(k)].transpose());
+    rates += n;
+  }
+  return sum;
+}
+
+/// N: multipliers of the facet (Eigen::Dynamic: any number).
+template <int Dim, int N>
+void add_rates_of(const MortarFacet<Dim>& matrices, std::span<const Index> slaves,
+                  std::span<const std::size_t> local, Points<Dim> x,
+                  std::vector<MortarNode<Dim>>& nodes) {
+  const Eigen::Index n = matrices.d.size();
+  const Sheet::ConstView dd = matrices.dd.view(), ds = matrices.ds.view(), dm = matrices.dm.view();
+  Eigen::Index column = 0;
+  for (const Index by : matrices.nodes) {
+    std::array<typename MortarNode<Dim>::Rate*, cell::max_facet_nodes> rate;
+    for (std::size_t j = 0; j < static_cast<std::size_t>(n); ++j)
+      rate[j] = &rate_of(nodes[local[j]], by);
+    for (int i = 0; i < Dim; ++i, ++column) {
+      const auto own = rates_of_sum<Dim, N>(ds.col(column).data(), slaves, x, n);
+      const auto other = rates_of_sum<Dim, N>(dm.col(column).data(), matrices.masters, x, n);
+      for (Eigen::Index j = 0; j < n; ++j) {
+        typename MortarNode<Dim>::Rate& to = *rate[static_cast<std::size_t>(j)];
+        to.area[i] += dd(j, column);
+        to.own.col(i) += own.row(j).transpose();
+        to.other.col(i) += other.row(j).transpose();
+      }
+    }
+  }
+}
+
+}  // namespace
+
 template <int Dim>
 void add_rates(const MortarFacet<Dim>& matrices, std::span<const Index> slaves,
                std::span<const std::size_t> local, Points<Dim> x,
                std::vector<MortarNode<Dim>>& nodes) {
-  const Eigen::Index n = matrices.d.size();
-  const Sheet::ConstView dd = matrices.dd.view(), ds = matrices.ds.view(), dm = matrices.dm.view();
-  for (Eigen::Index j = 0; j < n; ++j) {
-    MortarNode<Dim>& node = nodes[local[static_cast<std::size_t>(j)]];
-    for (std::size_t c = 0; c < matrices.nodes.size(); ++c) {
-      const auto column = Dim * static_cast<Eigen::Index>(c);
-      typename MortarNode<Dim>::Rate& rate = rate_of(node, matrices.nodes[c]);
-      rate.area += dd.template block<1, Dim>(j, column).transpose();
-      Eigen::Index row = j;
-      for (const Index k : slaves) {
-        rate.own += x[at(k)] * ds.template block<1, Dim>(row, column);
-        row += n;
-      }
-      row = j;
-      for (const Index l : matrices.masters) {
-        rate.other += x[at(l)] * dm.template block<1, Dim>(row, column);
-        row += n;
-      }
-    }
-  }
+  if (matrices.d.size() == 4)
+    add_rates_of<Dim, 4>(matrices, slaves, local, x, nodes);
+  else
+    add_rates_of<Dim, Eigen::Dynamic>(matrices, slaves, local, x, nodes);
 }
 
 template <int Dim>

@@ -96,7 +96,10 @@ struct Place {
 };
 
 void set_place(const Flat& facet, const Vec2& xi, int order, Place& out) {
-  out.shape = cell::facet_shape(facet.type, xi, order);
+  if (facet.type == cell::CellType::quad4)
+    cell::set_bilinear(xi, out.shape);
+  else
+    out.shape = cell::facet_shape(facet.type, xi, order);
   out.jacobian.setZero();
   for (std::size_t k = 0; k < static_cast<std::size_t>(facet.count); ++k)
     for (std::size_t i = 0; i < 2; ++i)
@@ -153,6 +156,7 @@ struct Work {
   Vec2 slave_start, master_start;
   const cell::Quadrature2D* rule = nullptr;
   MortarCell<3>* cell = nullptr;
+  Place on_slave, on_master;  ///< of the point
   FlatRates de, df;
   double way = 0, area = 0, flat_area = 0;
   [[nodiscard]] I columns() const { return 2 * (slave.count + master.count); }
@@ -217,6 +221,17 @@ Stretch stretch_of(const Work& w, const Place& place) {
   return s;
 }
 
+/// to += of * rates: with the sizes of two quad4, which are those of most facets, known.
+template <int Terms>
+void add_terms(const Eigen::Matrix<double, Eigen::Dynamic, Terms, 0, most_rows, Terms>& of,
+               const Rows& rates, FlatRates& to) {
+  if (of.rows() == 16 && rates.cols() == 16)
+    Eigen::Map<Mat<16, 16>>(to.data()) += Eigen::Map<const Mat<16, Terms>>(of.data()).lazyProduct(
+        Eigen::Map<const Mat<5, 16>>(rates.data()).template topRows<Terms>());
+  else
+    to += of.lazyProduct(rates.template topRows<Terms>());
+}
+
 /// Adds to the derivatives: coefficient matrices of (weight, xi, eta) times their rows.
 void add_rates(Work& w, const Place& s, const Place& m, double weight, const Rows& rates) {
   const I n = w.slave.count, l = w.master.count;
@@ -237,8 +252,8 @@ void add_rates(Work& w, const Place& s, const Place& m, double weight, const Row
           weight * nj * t[1][at(k)], weight * nj * t[2][at(k)];
     }
   }
-  w.de += of_e.lazyProduct(rates.topRows<3>());
-  w.df += of_f.lazyProduct(rates);
+  add_terms<3>(of_e, rates, w.de);
+  add_terms<5>(of_f, rates, w.df);
 }
 
 /// Of the current area also by the positions in space.
@@ -293,7 +308,7 @@ Rows point_rates(const Work& w, const TriangleRates& t, const Vec3& corner_weigh
 
 bool add_point(Work& w, const Vec2& p, double weight, const Vec3& corner_weights,
                const TriangleRates* rates) {
-  Place s, m;
+  Place &s = w.on_slave, &m = w.on_master;
   if (!find_place(w.slave, p, w.slave_start, s) || !find_place(w.master, p, w.master_start, m))
     return false;
   const Stretch stretch = stretch_of(w, s);

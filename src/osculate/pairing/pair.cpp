@@ -8,6 +8,7 @@
 #include "osculate/pairing/combinations.hpp"
 #include "osculate/pairing/mortar.hpp"
 #include "osculate/pairing/placed_points.hpp"
+#include "osculate/pairing/point_block.hpp"
 #include "osculate/pairing/point_sample.hpp"
 #include "osculate/pairing/reentrant_edge.hpp"
 #include "osculate/pairing/reentrant_vertex.hpp"
@@ -104,12 +105,29 @@ int largest_block(const PairDefinition<Dim>& pair) {
   return std::max(slave + (both_facets ? 2 : 1) * master, edges_of(pair) ? of_edge_contact : 0);
 }
 
+/// Blocks of the points, and empty ones of a smooth master's facets: their nodes are 16, and
+/// many slave facets lie over each of them.
+template <int Dim>
+void refresh_blocks(const PairDefinition<Dim>& pair, PairEvaluation<Dim>& out) {
+  const std::size_t n = pair.slave.points.size();
+  std::size_t facets = 0;
+  if constexpr (Dim == 3) {
+    const bool smooth = std::ranges::any_of(
+        pair.master.facets, [](const SurfaceFacet& f) { return f.patch != nullptr; });
+    if (smooth && !edges_of(pair) && !has_reentrant_vertices(pair))
+      facets = pair.master.facets.size();
+  }
+  out.blocks.resize(n + facets);
+  out.master_blocks = facets > 0 ? n : 0;
+  for (std::size_t k = n; k < out.blocks.size(); ++k) clear_block(out.blocks[k]);
+}
+
 template <int Dim>
 void refresh(const PairDefinition<Dim>& pair, Points<Dim> x, bool with_tangent,
              PairEvaluation<Dim>& out) {
   const std::size_t n = pair.slave.points.size();
   out.points.resize(n);
-  out.blocks.resize(n);
+  refresh_blocks(pair, out);
   out.taken_multipliers.resize(has_reentrant_vertices(pair) ? n : 0);
   out.block_nodes = largest_block(pair);
   if (pair.weight == Weight::current_area) {

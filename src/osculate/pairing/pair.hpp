@@ -180,6 +180,9 @@ struct ContactBlock {
   bool branched = false;
   Eigen::MatrixXd tangent;  ///< empty: nothing but `path`
   bool elsewhere = false;   ///< the tangent is in that of a former block with the same nodes
+  /// Its rows and columns of the master's nodes are zero: what belongs there is in the block of the
+  /// master's facet.
+  bool without_master = false;
   Eigen::Matrix<double, Eigen::Dynamic, Dim> path_rows;
   Eigen::VectorXd area_rows;
   PathBuffers<Dim> behind;
@@ -200,7 +203,9 @@ struct ContactBlock {
   }
   /// Likewise, of a block that has a tangent.
   void reserve_tangent(int most) {
-    if (tangent.rows() < Dim * most) tangent.resize(Dim * most, Dim * most);
+    if (tangent.rows() >= Dim * most) return;
+    tangent.resize(Dim * most, Dim * most);
+    without_master = false;
   }
 };
 
@@ -217,8 +222,9 @@ template <int Dim>
 struct PairEvaluation {
   std::vector<PointResult<Dim>> points;  ///< one per slave point, then one per edge-edge contact
   /// One per point, `count == 0` where open; mortar: then those of the facets, without forces (and
-  /// unused ones with `count == 0`).
+  /// unused ones with `count == 0`). Likewise those of a smooth master's facets in space.
   std::vector<ContactBlock<Dim>> blocks;
+  std::size_t master_blocks = 0;  ///< the first one of the master's facets; 0: there are none
   EdgeBuffers edges;
   int block_nodes = 0;        ///< of the largest block there can be
   std::vector<double> areas;  ///< of the slave's points, if they change

@@ -53,10 +53,11 @@ void scatter_path(std::span<const Mat<Dim, Dim>> s, const WeightOf& w, double ar
   }
 }
 
-/// Adds to the rows of some of the nodes, at most `most` of them.
-template <int Dim, int most, class WeightOf>
-void scatter_rows(const contact::PointTerms<Dim>& terms, std::array<int, 2> nodes,
-                  const WeightOf& w, double area, Eigen::Ref<Eigen::MatrixXd> tangent) {
+/// Adds to the rows of some of the nodes, at most `most` of them; `into(c)` is where their part of
+/// column c stands.
+template <int Dim, int most, class WeightOf, class Into>
+void scatter_rows(const contact::PointTerms<Dim>& terms, std::array<int, 2> nodes, int count,
+                  const WeightOf& w, double area, const Into& into) {
   constexpr int width = Dim * static_cast<int>(contact::slots<Dim>);
   const Eigen::Index n = Dim * (nodes[1] - nodes[0]);
   Eigen::Matrix<double, Eigen::Dynamic, width, 0, Dim * most, width> rows(n, width);
@@ -69,10 +70,9 @@ void scatter_rows(const contact::PointTerms<Dim>& terms, std::array<int, 2> node
       }
       rows.template block<Dim, Dim>(Dim * (k - nodes[0]), Dim * static_cast<Eigen::Index>(b)) = sum;
     }
-  const int columns = static_cast<int>(tangent.cols()) / Dim;
-  for (int l = 0; l < columns; ++l)
+  for (int l = 0; l < count; ++l)
     for (int d = 0; d < Dim; ++d) {
-      auto column = tangent.col(Dim * l + d).segment(Dim * nodes[0], n);
+      Eigen::Map<Eigen::VectorXd> column(into(Dim * l + d), n);
       const auto part = [&](std::size_t b) {
         return w(b, l) * rows.col(Dim * static_cast<Eigen::Index>(b) + d);
       };
@@ -100,31 +100,78 @@ void scatter_tangent(const contact::PointTerms<Dim>& terms, int count, const Wei
   constexpr int band = max_slave_nodes<Dim> + 2 * max_master_nodes<Dim>;
   if (!add) tangent.topLeftCorner(Dim * count, Dim * count).setZero();
   for (int first = 0; first < count; first += band)
-    scatter_rows<Dim, band>(terms, {first, std::min(count, first + band)}, w, area,
-                            tangent.topLeftCorner(Dim * count, Dim * count));
+    scatter_rows<Dim, band>(terms, {first, std::min(count, first + band)}, count, w, area,
+                            [&](int c) { return &tangent(Dim * first, c); });
+}
+
+/// The same of a point on a smooth facet of the master, whose own nodes' part goes into the block
+/// of that facet.
+template <int Dim, class WeightOf>
+void scatter_tangent(const contact::PointTerms<Dim>& terms, const WeightOf& w, double area,
+                     const ContactBlock<Dim>& block, Eigen::MatrixXd& tangent,
+                     Eigen::MatrixXd& of_facet) {
+  const int slave = block.slave_count, count = block.count;
+  scatter_rows<Dim, max_slave_nodes<Dim>>(terms, {0, slave}, count, w, area,
+                                          [&](int c) { return &tangent(0, c); });
+  scatter_rows<Dim, max_master_nodes<Dim>>(terms, {slave, count}, count, w, area, [&](int c) {
+    return c < Dim * slave ? &tangent(Dim * slave, c) : &of_facet(0, c - Dim * slave);
+  });
+}
+
+/// Readies the tangent of a point's block that has no part of the master's nodes alone.
+template <int Dim>
+void start_without_master(ContactBlock<Dim>& block) {
+  const Eigen::Index slave = Dim * block.slave_count, rest = block.tangent.rows() - slave;
+  if (!block.without_master) block.tangent.bottomRightCorner(rest, rest).setZero();
+  block.without_master = true;  // nobody else writes there
+  block.tangent.topRows(slave).setZero();
+  block.tangent.leftCols(slave).setZero();
+}
+
+/// The block of the master's facet that `block` is on.
+template <int Dim>
+ContactBlock<Dim>& facet_block(const ContactBlock<Dim>& block, ContactBlock<Dim>& facet) {
+  if (facet.active()) return facet;
+  const int count = block.count - block.slave_count;
+  facet.reserve(count);
+  facet.reserve_tangent(count);
+  set_nodes<Dim>(
+      {},
+      std::span(block.nodes)
+          .subspan(static_cast<std::size_t>(block.slave_count), static_cast<std::size_t>(count)),
+      facet);
+  facet.force.setZero();
+  facet.branch_force.setZero();
+  facet.tangent.setZero();
+  return facet;
 }
 
 /// A path over the block's own master nodes, as that of a point which is on the facet of its
-/// history, goes into the tangent.
+/// history, goes into the tangent. With `of_facet` that takes the rows of the master's nodes.
 template <int Dim>
-void fold_path(ContactBlock<Dim>& block, Eigen::MatrixXd& tangent) {
+void fold_path(ContactBlock<Dim>& block, Eigen::MatrixXd& tangent,
+               Eigen::MatrixXd* of_facet = nullptr) {
   std::vector<NodeMatrix<Dim>>& path = block.behind.path;
   const auto first = static_cast<std::size_t>(block.slave_count);
   if (path.size() + first != static_cast<std::size_t>(block.count)) return;
   for (std::size_t k = 0; k < path.size(); ++k)
     if (path[k].node != block.nodes[first + k]) return;
-  const Eigen::Index n = Dim * block.count;
-  const auto rows = block.path_rows.topRows(n);
-  Eigen::Index to = Dim * static_cast<Eigen::Index>(first);
-  for (const NodeMatrix<Dim>& g : path)
-    for (Eigen::Index d = 0; d < Dim; ++d) {
-      auto column = tangent.col(to++).head(n);
-      if constexpr (Dim == 3)
-        column +=
-            g.value(0, d) * rows.col(0) + g.value(1, d) * rows.col(1) + g.value(2, d) * rows.col(2);
-      else
-        column += g.value(0, d) * rows.col(0) + g.value(1, d) * rows.col(1);
-    }
+  const Eigen::Index all = Dim * block.count, slave = Dim * block.slave_count;
+  const auto fold = [&](Eigen::Index from, Eigen::Index n, Eigen::MatrixXd& to, Eigen::Index row,
+                        Eigen::Index column) {
+    const auto rows = block.path_rows.middleRows(from, n);
+    for (const NodeMatrix<Dim>& g : path)
+      for (Eigen::Index d = 0; d < Dim; ++d) {
+        auto sum = to.col(column++).segment(row, n);
+        if constexpr (Dim == 3)
+          sum += g.value(0, d) * rows.col(0) + g.value(1, d) * rows.col(1) +
+                 g.value(2, d) * rows.col(2);
+        else
+          sum += g.value(0, d) * rows.col(0) + g.value(1, d) * rows.col(1);
+      }
+  };
+  fold(0, of_facet ? slave : all, tangent, 0, slave);
+  if (of_facet) fold(slave, all - slave, *of_facet, 0, 0);
   path.clear();
 }
 

@@ -99,6 +99,17 @@ void set_point_nodes(const SurfaceSample<Dim>& point, int most, ContactBlock<Dim
                  block);
 }
 
+/// The block of the smooth facet of the master that the point is on; null for other facets.
+template <int Dim>
+ContactBlock<Dim>* block_of_facet(const SurfaceSample<Dim>& point, PairEvaluation<Dim>& out) {
+  if constexpr (Dim == 3) {
+    const auto facet = static_cast<std::size_t>(point.projected.projection.facet);
+    if (out.master_blocks > 0 && point.surface.facets[facet].patch)
+      return &out.blocks[out.master_blocks + facet];
+  }
+  return nullptr;
+}
+
 /// Forces, tangent and constraint of a point in contact.
 template <int Dim>
 void set_block(const PairDefinition<Dim>& pair, const SurfaceSample<Dim>& point,
@@ -123,13 +134,21 @@ void set_block(const PairDefinition<Dim>& pair, const SurfaceSample<Dim>& point,
     set_constraint_values(constraint_weight(pair, i), r, k.frame, context, block.constraint);
   if (!with_tangent) return;
   if (block.constraint.on) set_constraint_tangent(pair, i, k, r.traction, w, weight, block);
+  ContactBlock<Dim>* const of_facet = block_of_facet(point, out);
   ContactBlock<Dim>& holder = tangent_holder(i, out.blocks);
   block.elsewhere = &holder != &block;
   holder.reserve_tangent(out.block_nodes);
-  scatter_tangent<Dim>(terms, block.count, w, weight, holder.tangent, block.elsewhere);
+  if (of_facet) {
+    if (!block.elsewhere) start_without_master(block);
+    scatter_tangent<Dim>(terms, w, weight, block, holder.tangent,
+                         facet_block(block, *of_facet).tangent);
+  } else {
+    holder.without_master = false;
+    scatter_tangent<Dim>(terms, block.count, w, weight, holder.tangent, block.elsewhere);
+  }
   if (!block.path().empty()) {
     scatter_path<Dim>(terms.s, w, weight, block);
-    fold_path(block, holder.tangent);
+    fold_path(block, holder.tangent, of_facet ? &of_facet->tangent : nullptr);
   }
   if (!pair.tangent.consistent || pair.weight != Weight::current_area || !point.slave) return;
   add_area_gradient<Dim>(pair, out, i, k.normal, block.area);

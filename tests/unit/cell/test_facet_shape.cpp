@@ -86,5 +86,16 @@ TEST(FacetShape, ValuesSumToOneAndDerivativesToZero) {
   }
 }
 
+TEST(FacetShape, BilinearOnesInPlaceAreTheSame) {
+  for (const Vec2& xi : {Vec2(0.31, -0.2), Vec2(-1, 0.7), Vec2(1.3, 1)}) {
+    const FacetShape expected = facet_shape(CellType::quad4, xi, 2);
+    FacetShape s = facet_shape(CellType::quad9, Vec2(0.1, 0.6), 2);  // of another place
+    set_bilinear(xi, s);
+    EXPECT_EQ(s.count, 4);
+    for (std::size_t d = 0; d < 6; ++d)
+      for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(s.n[d][k], expected.n[d][k], 1e-15) << d;
+  }
+}
+
 }  // namespace
 }  // namespace osculate::cell

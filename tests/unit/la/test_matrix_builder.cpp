@@ -172,6 +172,40 @@ TEST(MatrixBuilder, blocks_give_the_bits_of_single_entries) {
   EXPECT_EQ(a.value, b.value);
 }
 
+/// Of rows and columns of different nodes, without any columns too.
+TEST(MatrixBuilder, rectangles_are_the_sums_of_single_entries) {
+  std::mt19937 random(11);
+  std::uniform_int_distribution<Index> unknown(0, 29);
+  std::uniform_real_distribution<double> value(-1, 1);
+  MatrixBuilder blocks(30), entries(30);
+  for (int turn = 0; turn < 40; ++turn) {
+    std::vector<Index> rows(4), columns(6, -1);
+    for (Index& i : rows) i = unknown(random);
+    if (turn % 9 != 8) {
+      std::set<Index> distinct;
+      while (distinct.size() < 6) distinct.insert(unknown(random));
+      std::copy(distinct.begin(), distinct.end(), columns.begin());
+      std::shuffle(columns.begin(), columns.end(), random);
+      columns[static_cast<std::size_t>(turn % 6)] = -1;
+    }
+    rows[static_cast<std::size_t>(turn % 4)] = -1;
+    if (turn % 3 == 0) blocks.reserve_block(rows, columns), entries.reserve_block(rows, columns);
+    if (turn % 5 == 0) blocks.finish(), entries.finish();
+    Eigen::MatrixXd k(7, 6);  // with rows that do not belong to it
+    for (double& v : k.reshaped()) v = value(random);
+    blocks.add_block(rows, columns, k.data(), k.outerStride());
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      for (std::size_t j = 0; j < columns.size(); ++j)
+        if (rows[i] >= 0 && columns[j] >= 0)
+          entries.add(rows[i], columns[j],
+                      k(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
+  }
+  const SparseMatrix& a = blocks.finish();
+  const SparseMatrix& b = entries.finish();
+  EXPECT_EQ(a.column, b.column);
+  EXPECT_EQ(a.value, b.value);
+}
+
 /// Of rows and columns of different nodes; a column is named twice.
 TEST(MatrixBuilder, products_are_the_sums_of_single_entries) {
   std::mt19937 random(7);

@@ -383,6 +383,53 @@ TEST(SmoothSurface, TangentIsTheDerivative) {
         }
 }
 
+// Three slave nodes, two of them over one facet: its nodes' part of their tangents is in one block,
+// whatever the buffers were used for before.
+TEST(SmoothSurface, PointsOverAFacetShareTheTangentOfItsNodes) {
+  const Skin skin = sheet(CellType::quad4, 0.02);
+  PairSample3 s;
+  s.pair.master = skin.surface;
+  s.x = skin.x;
+  const auto below = [&](std::size_t facet, const Vec2& xi) {
+    const geometry::SurfaceJet jet = jet_of(skin, facet, xi);
+    return Vec3(jet.r - 0.03 * jet.r1[0].cross(jet.r1[1]).normalized());
+  };
+  const auto first = static_cast<Index>(s.x.size());
+  s.x.insert(s.x.end(), {below(7, {0.3, 0.2}), below(7, {-0.5, 0.4}), below(4, {0.1, -0.3})});
+  s.pair.slave =
+      pairing::make_slave_side(FacetSurface{}, std::array<Index, 3>{first, first + 1, first + 2});
+  s.pair.weight = pairing::Weight::node;
+  s.pair.normal = contact::penalty(1000);
+  s.pair.friction = contact::coulomb(10.0, 80.0);
+  pairing::prepare(s.pair, s.x);
+  s.committed.points = {remembered(7, Vec2(0.2, 0.2), -0.01, {4.0, -3.0}),
+                        remembered(4, Vec2(0.4, 0.2), -0.01, {4.0, -3.0}),
+                        remembered(4, Vec2(0.4, 0.2), -0.01, {4.0, -3.0})};
+  std::vector<Vec3> elsewhere = s.x;
+  std::swap(elsewhere[static_cast<std::size_t>(first)],
+            elsewhere[static_cast<std::size_t>(first) + 2]);
+  elsewhere[static_cast<std::size_t>(first) + 1] = below(8, {0.1, 0.1});
+  pairing::PairEvaluation<3> fresh, used;
+  pairing::evaluate<3>(s.pair, elsewhere, s.committed, true, used);
+  for (pairing::PairEvaluation<3>* const e : {&fresh, &used})
+    pairing::evaluate<3>(s.pair, s.x, s.committed, true, *e);
+  const auto size = static_cast<Eigen::Index>(3 * s.x.size());
+  EXPECT_EQ(assembled_tangent(used, size), assembled_tangent(fresh, size));
+  std::vector<std::size_t> with_block;
+  for (std::size_t f = 0; f < skin.surface.facets.size(); ++f)
+    if (used.blocks[used.master_blocks + f].active()) with_block.push_back(f);
+  EXPECT_EQ(with_block, (std::vector<std::size_t>{4, 7}));
+  for (std::size_t i = 0; i < 3; ++i) {
+    ASSERT_EQ(used.blocks[i].slave_count, 1);
+    const int master = 3 * (used.blocks[i].count - 1);
+    EXPECT_TRUE(used.blocks[i].tangent.block(3, 3, master, master).isZero(0));
+  }
+  const Eigen::VectorXd v = flatten(s.x);
+  expect_derivative([&](const Eigen::VectorXd& y) { return pair_residual(s, y); },
+                    pair_tangent(s, v), [&](const Eigen::VectorXd& y) { return pair_facts(s, y); },
+                    v, 5e-4);
+}
+
 // A fan of many quadrilaterals depends on more nodes than there is room for.
 TEST(SmoothSurface, RefusesWhatItCannotHold) {
   Skin s;

@@ -25,8 +25,8 @@ struct Assembly {
   std::vector<Dof> row_dofs{};
 
   template <class Block>
-  void add_stiffness(std::span<const Dof> block_dofs, const Block& k) {
-    assembler.add_block(block_dofs, k);
+  void add_stiffness(std::span<const Dof> block_dofs, const Block& k, std::size_t corner = 0) {
+    assembler.add_block(block_dofs, k, corner);
     if (!inc) return;
     for (std::size_t j = 0; j < block_dofs.size(); ++j) {
       const double du = (*inc)[block_dofs[j]];

@@ -26,7 +26,9 @@ void add_block(const pairing::ContactBlock<Dim>& block, Assembly<Dim>& to) {
   }
   if (block.branched) into.branched = true;
   if (!to.with_tangent) return;
-  if (block.has_tangent()) to.add_stiffness(d, block.tangent);
+  if (block.has_tangent())
+    to.add_stiffness(d, block.tangent,
+                     block.without_master ? static_cast<std::size_t>(Dim * block.slave_count) : 0);
   const auto rows = static_cast<Eigen::Index>(d.size());
   if (!block.path().empty()) {  // of the nodes behind a contact point
     to.begin_path();
