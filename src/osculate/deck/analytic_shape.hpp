@@ -4,7 +4,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "osculate/deck/description.hpp"
+#include "osculate/deck/body_description.hpp"
 #include "osculate/geometry/catalogue.hpp"
 #include "osculate/geometry/surface_catalogue.hpp"
 

@@ -14,10 +14,12 @@ template <int Dim>
 void check_bodies(const BuildContext<Dim>& c, const Step& step) {
   for (const model::BasicBulkSection<Dim>& section : c.model().sections) {
     if (section.section.kinematics == solid::Kinematics::finite)
-      refuse(step.buckling->mark,
-             fmt::format("section '{}' has finite strains; it needs `kinematics: small` and a "
-                         "material such as linear_elastic (a deck: no NLGEOM)",
-                         section.name));
+      refuse(
+          step.buckling->mark,
+          fmt::format("section '{}' has finite strains; it needs `kinematics: small` and a "
+                      "material such as linear_elastic (a deck: no NLGEOM, and NLGEOM=NO with *MPC "
+                      "of PLANE, STRAIGHT or BEAM)",
+                      section.name));
     if (!material::linear(section.section.law))
       refuse(step.buckling->mark,
              fmt::format("the material of section '{}' is not linear", section.name));

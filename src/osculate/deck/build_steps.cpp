@@ -258,20 +258,36 @@ void add_weight(const BuildContext<Dim>& c, const deck::Step& step, const model:
   c.built.loads.back().push_back({"gravity", {}, values, {}, !step.gravity, all, all});
 }
 
-}  // namespace
-
-namespace {
-
 /// Bodies without mass move only as they are told.
 template <int Dim>
-bool held_from_the_beginning(const model::BasicRigidBody<Dim>& body, Component component) {
-  if (Dim == 2 && !is_planar(component)) return false;
-  return !(body.mass > 0);
+void hold_bodies(const BuildContext<Dim>& c, Running& running) {
+  const auto& bodies = c.model().rigid;
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    for (std::size_t i = 0; i < component_count; ++i) {
+      const auto component = static_cast<Component>(i);
+      if (bodies[b].mass > 0 || (Dim == 2 && !is_planar(component))) continue;
+      running.prescribed[body_dof(c.model(), static_cast<Index>(b), component)] = {};
+    }
 }
 
-}  // namespace
-
-namespace {
+/// What it looks for, its increments and duration.
+template <int Dim>
+model::Step step_without_loads(const BuildContext<Dim>& c, const deck::Step& step) {
+  model::Step out;
+  out.name = step.name.value;
+  out.increments = step.increments.value;
+  if (step.modes)
+    out.frequencies = model::Frequencies{step.modes->value, step.about == ModesAbout::start, {}};
+  for (const Marked<int>& k : step.diameters) out.frequencies->diameters.push_back(k.value);
+  if (step.lowest || step.highest)
+    c.built.listed_frequencies[static_cast<Index>(c.model().steps.size())] = {
+        step.lowest ? step.lowest->value : -std::numeric_limits<double>::infinity(),
+        step.highest ? step.highest->value : std::numeric_limits<double>::infinity()};
+  if (step.modal) build_modal(*step.modal, out.modal.emplace());
+  if (step.duration) out.duration = step.duration->value;
+  out.equation_start = c.model().steps.empty() ? 0.0 : 1.0;
+  return out;
+}
 
 /// Nothing acts in a step of vibrations about the start.
 template <int Dim>
@@ -281,10 +297,6 @@ void unload(const BuildContext<Dim>& c, model::Step& step) {
   step.gravity.clear();
   step.temperature = {c.model().initial_temperature, {}};
 }
-
-}  // namespace
-
-namespace {
 
 /// What acts before motions along vibrations and buckling, which leave nothing behind.
 struct Aside {
@@ -303,10 +315,6 @@ void set_aside(const deck::Step& step, Running& running, std::vector<double>& gr
   aside.emplace().gravity = gravity;
   for (const auto& [key, channel] : running.channels) aside->values[key] = channel.value;
 }
-
-}  // namespace
-
-namespace {
 
 /// The imaginary parts of loads and supports.
 template <int Dim>
@@ -327,28 +335,12 @@ void build_steps(BuildContext<Dim>& c) {
   Running running;
   std::optional<Aside> aside;
   std::vector<double> gravity, temperatures = c.model().initial_temperature;
-  for (std::size_t b = 0; b < c.model().rigid.size(); ++b)
-    for (std::size_t i = 0; i < component_count; ++i)
-      if (held_from_the_beginning(c.model().rigid[b], static_cast<Component>(i)))
-        running
-            .prescribed[body_dof(c.model(), static_cast<Index>(b), static_cast<Component>(i))] = {};
-  bool first = true, about_start = false;  // the last vibrations are about the latter
+  hold_bodies(c, running);
+  bool about_start = false;  // the last vibrations are
   for (const deck::Step& step : c.description.steps) {
-    model::Step out;
-    out.name = step.name.value;
-    out.increments = step.increments.value;
+    model::Step out = step_without_loads(c, step);
     const bool unloaded = step.about == ModesAbout::start;
-    if (step.modes) out.frequencies = model::Frequencies{step.modes->value, unloaded, {}};
-    for (const Marked<int>& k : step.diameters) out.frequencies->diameters.push_back(k.value);
-    if (step.lowest || step.highest)
-      c.built.listed_frequencies[static_cast<Index>(c.model().steps.size())] = {
-          step.lowest ? step.lowest->value : -std::numeric_limits<double>::infinity(),
-          step.highest ? step.highest->value : std::numeric_limits<double>::infinity()};
-    if (step.modal) build_modal(*step.modal, out.modal.emplace());
     if (step.harmonic) begin_harmonic(c, step, temperatures, about_start, out);
-    if (step.duration) out.duration = step.duration->value;
-    out.equation_start = first ? 0.0 : 1.0;
-    first = false;
     set_aside(step, running, gravity, aside);
     if (!step.harmonic) build_dynamics(c, step, gravity, out);
     apply_releases(c, step, running);

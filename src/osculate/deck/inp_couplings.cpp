@@ -8,6 +8,7 @@
 #include "osculate/deck/inp_parts.hpp"
 #include "osculate/deck/pretension.hpp"
 #include "osculate/io/inp/loaded_sets.hpp"
+#include "osculate/io/inp/thin_sections.hpp"
 
 namespace osculate::deck {
 namespace {
@@ -34,10 +35,21 @@ const char* key_of_mpc(const InpModel& m, const Line& line, const std::string& k
                             printable(kind)));
 }
 
+bool says_nlgeom(const InpModel& m) {
+  return std::ranges::any_of(m.deck.cards, [](const Card& card) {
+    return card.keyword == "STEP" && io::inp::find_parameter(card, "NLGEOM");
+  });
+}
+
 /// A line begins with the kind; one that begins with a node goes on with the last one.
-void put_mpcs(const InpModel& m, const Card& card, SourceNode& root) {
+void put_mpcs(InpModel& m, const Card& card, SourceNode& root) {
   SourceNode* nodes = nullptr;
   bool known = false;
+  if (m.finite && io::inp::moves_far(m.deck, card) && !says_nlgeom(m))
+    m.notes.push_back(
+        fmt::format("line {}: *MPC with PLANE, STRAIGHT or BEAM makes displacements and strains "
+                    "those of NLGEOM, as in CalculiX; *STEP, NLGEOM=NO keeps strains small",
+                    card.at.line));
   for (const Line& line : io::inp::lines_of(m.deck, card)) {
     Fields fields(m.deck, line);
     const std::string first = io::inp::capitals(io::inp::name_of(fields.next().value_or("")));

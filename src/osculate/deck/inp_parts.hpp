@@ -35,7 +35,7 @@ struct InpModel {
   const io::inp::Deck& deck;
   io::inp::DeckMesh mesh;
   std::map<std::pair<io::inp::SetKind, std::string>, std::size_t> sets;  ///< by name in capitals
-  bool finite = false;                                                   ///< some step has NLGEOM
+  bool finite = false;                                                   ///< has_finite_step
   std::vector<std::string> notes;
   std::vector<InpPair> pairs{};
   std::map<Index, InpBodyNode> body_nodes{};  ///< by node of the mesh

@@ -111,6 +111,37 @@ BoundKey<S> tolerance_key() {
           }};
 }
 
+BoundKey<S> arc_length_key() {
+  return may(
+      &S::arc_length, "arc_length",
+      choice(
+          "Follow the path of equilibria where it turns back (snap-through, buckling): the "
+          "fraction of the step is an unknown too, and may fall. In steps without inertia.",
+          {word("auto", ArcLength::automatic,
+                "where an increment fails for good and bodies do not come to rest behind a snap, "
+                "until its end is reached"),
+           word("always", ArcLength::always, "after the first increment of each step, to its end"),
+           word("off", ArcLength::off,
+                "never, nor are snaps passed: load control ends at a limit point")})
+          .otherwise("auto"));
+}
+
+BoundKey<S> linear_key() {
+  return may(&S::linear, "linear",
+             choice("How the linear systems of the iterations are solved.",
+                    {word("auto", Linear::automatic,
+                          "direct; multigrid where factors would have more than 900 entries for "
+                          "each unknown (compact bodies of more than 13 000 unknowns with "
+                          "friction, of some 60 000 without, that are not nearly incompressible) "
+                          "or 3e8 in all, or would take more than the memory of the machine"),
+                     word("direct", Linear::direct, "by factors (MUMPS)"),
+                     word("multigrid", Linear::multigrid,
+                          "by GMRES with a multigrid cycle for the bodies and factors of what is "
+                          "in contact: for large bodies, in a fraction of the memory. Matrices "
+                          "that it does not solve are factored")})
+                 .otherwise("auto"));
+}
+
 BoundKeys<S> solver_keys() {
   return {
       {tolerance_key(),
@@ -146,32 +177,7 @@ BoundKeys<S> solver_keys() {
                .otherwise("auto")),
        unread<S>(optional("stabilisation",
                           map("Viscous help until contact closes.", {}).not_available())),
-       may(&S::arc_length, "arc_length",
-           choice("Follow the path of equilibria where it turns back (snap-through, buckling): the "
-                  "fraction of the step is an unknown too, and may fall. In steps without inertia.",
-                  {word("auto", ArcLength::automatic,
-                        "where an increment fails for good and bodies do not come to rest behind a "
-                        "snap, until its end is reached"),
-                   word("always", ArcLength::always,
-                        "after the first increment of each step, to its end"),
-                   word("off", ArcLength::off,
-                        "never, nor are snaps passed: load control ends at a limit point")})
-               .otherwise("auto")),
-       may(&S::linear, "linear",
-           choice(
-               "How the linear systems of the iterations are solved.",
-               {word("auto", Linear::automatic,
-                     "direct; multigrid where factors would have more than 900 entries for each "
-                     "unknown (compact bodies of more than 13 000 unknowns with friction, of some "
-                     "60 000 without, that are not nearly incompressible) or 3e8 in all, or would "
-                     "take more than the memory of the "
-                     "machine"),
-                word("direct", Linear::direct, "by factors (MUMPS)"),
-                word("multigrid", Linear::multigrid,
-                     "by GMRES with a multigrid cycle for the bodies and factors of what is in "
-                     "contact: for large bodies, in a fraction of the memory. Matrices that it "
-                     "does not solve are factored")})
-               .otherwise("auto"))}};
+       arc_length_key(), linear_key()}};
 }
 
 BoundKeys<HistoryRequest> request_keys() {

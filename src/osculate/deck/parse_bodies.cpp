@@ -23,25 +23,59 @@ void require_kinematics(const Section& section, const Material& material) {
                   finite ? "hyperelastic" : material::key_of(law), finite ? "finite" : "small"));
 }
 
+Spec section_element_spec() {
+  return choice(
+             "Which plane the body lives in, or that it is one in space. All sections of a model "
+             "are in space, or none is; plane ones beside axisymmetric ones stand for all that is "
+             "spread round the circumference.",
+             {word("plane_strain", SectionElement::plane_strain, "no strain out of the plane"),
+              word("plane_stress", SectionElement::plane_stress, "no stress out of the plane"),
+              word("axisymmetric", SectionElement::axisymmetric,
+                   "x is the radius, y the axis; forces are those of the whole circumference"),
+              word("solid", SectionElement::solid, "a body in space, of volume cells"),
+              word("solid_shell", SectionElement::solid_shell,
+                   "a thin body in space, of hex8 or shell18 cells; the thickness goes from the "
+                   "first half of their nodes to the second, and hex8 cells in one layer are "
+                   "turned so. hex27 cells (of a second-order Gmsh mesh) become shell18: their "
+                   "nodes halfway through the thickness are left out")})
+      .or_else("; shells, beams and others are not available (osculate doc limits)")
+      .such_as("plane_strain");
+}
+
+Spec formulation_spec() {
+  return choice(
+             "How cells avoid locking. First-order triangles, tetrahedra and wedges are plain "
+             "displacement elements.",
+             {word("auto", Formulation::automatic,
+                   "first-order quadrilaterals and hexahedra enhanced, cells of second order full; "
+                   "of neo_hooke, where enhanced strains are unstable in large compression, and "
+                   "of " +
+                       remembering_materials() +
+                       ", where they hardly converge without hardening, both bbar but for "
+                       "triangles, tetrahedra and wedges, in plane stress full"),
+              word("full", Formulation::full,
+                   "plain displacement element, full integration: too stiff in bending and near nu "
+                   "= 0.5 (CalculiX' C3D8, Abaqus' CPS4; Abaqus' C3D8 is bbar)"),
+              word("bbar", Formulation::bbar,
+                   "averaged volume change, for nearly incompressible (Abaqus' CPE4, CAX4 and "
+                   "C3D8): constant in quad4, hex8, tri6, tet10 and wedge15, linear in quad8, "
+                   "quad9, hex20 and hex27 (Abaqus' elements whose names end in H)"),
+              word("enhanced", Formulation::enhanced,
+                   "enhanced strains, for bending and nearly incompressible (CalculiX' C3D8I, "
+                   "Abaqus' CPS4I, CPE4I, CAX4I and C3D8I)"),
+              word("reduced", Formulation::reduced,
+                   "fewer points: of quad4 and hex8 one, with hourglass control, of quad8 and "
+                   "hex20 two along each axis (Abaqus' and CalculiX' elements whose names end in "
+                   "R), of wedge6 two along its height (CalculiX' C3D6)"),
+              word("beam", Formulation::beam,
+                   "of hex20, whose first axis lies along a beam: two points along it, five by "
+                   "five across (CalculiX' B32R)")})
+      .otherwise("auto")
+      .such_as("bbar");
+}
+
 BoundKeys<Section> section_keys() {
   using S = Section;
-  const Spec element =
-      choice(
-          "Which plane the body lives in, or that it is one in space. All sections of a model are "
-          "in space, or none is; plane ones beside axisymmetric ones stand for all that is spread "
-          "round the circumference.",
-          {word("plane_strain", SectionElement::plane_strain, "no strain out of the plane"),
-           word("plane_stress", SectionElement::plane_stress, "no stress out of the plane"),
-           word("axisymmetric", SectionElement::axisymmetric,
-                "x is the radius, y the axis; forces are those of the whole circumference"),
-           word("solid", SectionElement::solid, "a body in space, of volume cells"),
-           word("solid_shell", SectionElement::solid_shell,
-                "a thin body in space, of hex8 or shell18 cells; the thickness goes from the first "
-                "half of their nodes to the second, and hex8 cells in one layer are turned so. "
-                "hex27 cells (of a second-order Gmsh mesh) become shell18: their nodes halfway "
-                "through the thickness are left out")})
-          .or_else("; shells, beams and others are not available (osculate doc limits)")
-          .such_as("plane_strain");
   const Spec kinematics =
       choice("How strains are measured.",
              {word("small", Kinematics::small, "linear in the displacements"),
@@ -49,38 +83,9 @@ BoundKeys<Section> section_keys() {
           .otherwise_as("small for " + small_strain_materials() +
                         ", finite for the other materials")
           .such_as("finite");
-  const Spec formulation =
-      choice(
-          "How cells avoid locking. First-order triangles, tetrahedra and wedges are plain "
-          "displacement elements.",
-          {word("auto", Formulation::automatic,
-                "first-order quadrilaterals and hexahedra enhanced, cells of second order full; of "
-                "neo_hooke, where enhanced strains are unstable in large compression, and of " +
-                    remembering_materials() +
-                    ", where they hardly converge without hardening, both bbar but for triangles, "
-                    "tetrahedra and wedges, in plane stress full"),
-           word("full", Formulation::full,
-                "plain displacement element, full integration: too stiff in bending and near nu = "
-                "0.5 (CalculiX' C3D8, Abaqus' CPS4; Abaqus' C3D8 is bbar)"),
-           word("bbar", Formulation::bbar,
-                "averaged volume change, for nearly incompressible (Abaqus' CPE4, CAX4 and C3D8): "
-                "constant in quad4, hex8, tri6, tet10 and wedge15, linear in quad8, quad9, hex20 "
-                "and hex27 (Abaqus' elements whose names end in H)"),
-           word("enhanced", Formulation::enhanced,
-                "enhanced strains, for bending and nearly incompressible (CalculiX' C3D8I, Abaqus' "
-                "CPS4I, CPE4I, CAX4I and C3D8I)"),
-           word("reduced", Formulation::reduced,
-                "fewer points: of quad4 and hex8 one, with hourglass control, of quad8 and hex20 "
-                "two along each axis (Abaqus' and CalculiX' elements whose names end in R), of "
-                "wedge6 two along its height (CalculiX' C3D6)"),
-           word("beam", Formulation::beam,
-                "of hex20, whose first axis lies along a beam: two points along it, five by five "
-                "across (CalculiX' B32R)")})
-          .otherwise("auto")
-          .such_as("bbar");
   return {{need(&S::on, "on", set_or_sets("Set of area cells, in space of volume cells.", "block")),
            need(&S::material, "material", text("Name of a material.").such_as("steel")),
-           need(&S::element, "element", element),
+           need(&S::element, "element", section_element_spec()),
            may(&S::thickness, "thickness",
                number("Thickness of a plane body.")
                    .in("length")
@@ -88,7 +93,7 @@ BoundKeys<Section> section_keys() {
                    .otherwise("1")
                    .such_as("2.5")),
            may(&S::kinematics, "kinematics", kinematics),
-           may(&S::formulation, "formulation", formulation), orientation_key()}};
+           may(&S::formulation, "formulation", formulation_spec()), orientation_key()}};
 }
 
 Section section_of(const Value& v, const std::vector<Material>& materials) {

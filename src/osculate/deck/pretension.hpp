@@ -2,7 +2,7 @@
 #include <array>
 #include <vector>
 
-#include "osculate/deck/description.hpp"
+#include "osculate/deck/constraint_description.hpp"
 #include "osculate/mesh/mesh.hpp"
 
 namespace osculate::deck {

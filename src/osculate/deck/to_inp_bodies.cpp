@@ -130,7 +130,7 @@ void write_masses(const Description& d, InpMesh<Dim>& mesh, Leaves& leaves, std:
   leaves.take("masses[");
   for (std::size_t k = 0; k < d.masses.size(); ++k) {
     const PointMass& mass = d.masses[k];
-    const std::string name = fmt::format("mass_{}", k + 1);
+    const std::string name = mass_name(k);
     if (mesh.control(mass.on.value))
       throw core::InputError(mass.mark, "masses of rigid bodies are not written");
     (void)mesh.nodes(mass.on);

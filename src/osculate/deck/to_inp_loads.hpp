@@ -25,6 +25,9 @@ struct DeckPlace {
   int direction = 0;
 };
 
+/// Of directions that are the same.
+inline constexpr double rounding_of_directions = 1e-12;
+
 /// Writes the loads of one step after the other: what those before have left counts.
 template <int Dim>
 class LoadWriter {
@@ -129,23 +132,26 @@ class LoadWriter {
   bool stops(const Load& load) const { return load.amplitude || was_at_once_; }
 
   /// In an input file a load replaces that of a step before, node by node and facet by facet.
-  void require_apart(const Name& on, const DeckPlace& at, Standing& standing,
-                     const std::set<std::pair<std::string, int>>& here) const {
-    const std::vector<Index> nodes = nodes_of(on);
+  void require_apart(const Name& on, const DeckPlace& at, const Standing& standing,
+                     const std::set<std::pair<std::string, int>>& here,
+                     bool of_facets = false) const {
     for (const auto& [key, value] : standing) {
       const auto named = named_.find(key.first);
       if (key.second != at.direction || key.first == at.on || here.contains(key) ||
           value.end == 0 || named == named_.end())
         continue;
-      const std::vector<Index> others = nodes_of(named->second);
-      for (const Index n : nodes)
-        if (std::ranges::binary_search(others, n))
-          throw core::InputError(
-              on.mark,
-              fmt::format("'{}' shares nodes with '{}', which a step before has loaded: an "
-                          "input file would replace that load there",
-                          on.value, named->second.value));
+      const Name& other = named->second;
+      if (of_facets ? mesh_.share_facets(on, other) : share_nodes(on, other))
+        throw core::InputError(
+            on.mark, fmt::format("'{}' shares {} with '{}', which a step before has loaded: an "
+                                 "input file would replace that load there",
+                                 on.value, of_facets ? "facets" : "nodes", other.value));
     }
+  }
+  bool share_nodes(const Name& one, const Name& other) const {
+    const std::vector<Index> nodes = nodes_of(one), others = nodes_of(other);
+    return std::ranges::any_of(nodes,
+                               [&](Index n) { return std::ranges::binary_search(others, n); });
   }
 
   std::string pressures(const Step& step) {
@@ -154,7 +160,7 @@ class LoadWriter {
     for (const Load& load : step.pressure) {
       const std::string& on = mesh_.surface(load.on);
       named_.try_emplace(on, load.on);
-      require_apart(load.on, {on, 0}, pressures_, said);
+      require_apart(load.on, {on, 0}, pressures_, said, true);
       said.insert({on, 0});
       OneStanding& now = pressures_[{on, 0}];
       double size = load.values[0]->value;
@@ -204,32 +210,73 @@ class LoadWriter {
     return load;
   }
 
-  /// Along fixed directions, per undeformed area: once of each set.
+  static Vec3 components(const Load& load) {
+    Vec3 all = Vec3::Zero();
+    for (std::size_t k = 0; k < 3; ++k)
+      if (load.values[k]) all[static_cast<Eigen::Index>(k)] = load.values[k]->value;
+    return all;
+  }
+  /// What stands of a surface's traction.
+  std::array<OneStanding*, 3> traction_on(const std::string& on) {
+    return {&tractions_[{on, 0}], &tractions_[{on, 1}], &tractions_[{on, 2}]};
+  }
+
+  /// Along fixed directions, per undeformed area: all components of a surface in one card.
   std::string tractions(const Step& step) {
     std::string out;
-    for (const auto& [key, value] : tractions_)
-      if (value.load && stops(*value.load) && !search_)
-        throw core::InputError(value.load->mark,
-                               "a traction that has a table, or acts in a step in which loads act "
-                               "at once, is written of the last step alone");
+    std::set<std::pair<std::string, int>> said;
     for (const Load& load : surface_forces(step)) {
-      Vec3 t = Vec3::Zero();
-      for (Eigen::Index k = 0; k < 3; ++k)
-        if (const auto& value = load.values[static_cast<std::size_t>(k)]) t[k] = value->value;
       const std::string& on = mesh_.surface(load.on);
       named_.try_emplace(on, load.on);
-      require_apart(load.on, {on, 0}, tractions_, {});
-      double size = t.norm();
-      if (tractions_.contains({on, 0}) || !(size > 0))
-        throw core::InputError(load.mark, "one traction of a set is written, in one step");
-      tractions_[{on, 0}] = {&load, size * end_of(load)};
-      t /= size;
-      const std::string table = ramp(load, 0, size);
-      out +=
-          fmt::format("*DSLOAD, FOLLOWER=NO, CONSTANT RESULTANT=YES{}\n{}, TRVEC, {}, {}, {}, {}\n",
-                      table, on, exact(size), exact(t[0]), exact(t[1]), exact(t[2]));
+      if (said.contains({on, 0}))
+        throw core::InputError(load.mark, "one traction of a set is written in a step");
+      for (int k = 0; k < 3; ++k) require_apart(load.on, {on, k}, tractions_, said, true);
+      for (int k = 0; k < 3; ++k) said.insert({on, k});
+      out += traction(load, on);
+    }
+    for (auto& [key, value] : tractions_) {
+      if (key.second != 0 || said.contains(key) || !value.load || search_ || !stops(*value.load))
+        continue;
+      const auto now = traction_on(key.first);
+      const Vec3 size(now[0]->end, now[1]->end, now[2]->end);
+      out += traction_card(key.first, "", size.norm(), size, components(*value.load));
+      for (OneStanding* const one : now) one->load = nullptr;
     }
     return out;
+  }
+  /// From what stands to what a load says.
+  std::string traction(const Load& load, const std::string& on) {
+    const auto now = traction_on(on);
+    const Vec3 start(now[0]->end, now[1]->end, now[2]->end);
+    Vec3 end = components(load);
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      if (!load.values[at]) end[k] = start[k];
+      if (!load.values[at] && load.amplitude && start[k] != 0)
+        throw core::InputError(load.mark,
+                               "a table of some components of a traction is not written where "
+                               "others stand from a step before");
+      *now[at] = {&load, end[k] * end_of(load)};
+    }
+    const Vec3 along = end.norm() > 0 ? Vec3(end.normalized()) : Vec3(start.normalized());
+    double size = end.dot(along);
+    const double before = start.dot(along);
+    if (at_once_ && !load.amplitude &&
+        start.cross(along).norm() > rounding_of_directions * start.norm())
+      throw core::InputError(load.mark,
+                             "a traction that turns is not written in a step with inertia or "
+                             "along vibrations, in which loads of an input file act at once");
+    const std::string table = ramp(load, before, size);
+    return traction_card(on, table, size, along, along);
+  }
+  /// Nothing, where both vectors that may give the direction are zero.
+  static std::string traction_card(const std::string& on, const std::string& table, double size,
+                                   const Vec3& first, const Vec3& second) {
+    const Vec3 along = first.norm() > 0 ? Vec3(first.normalized()) : Vec3(second.normalized());
+    if (!(along.norm() > 0)) return {};
+    return fmt::format(
+        "*DSLOAD, FOLLOWER=NO, CONSTANT RESULTANT=YES{}\n{}, TRVEC, {}, {}, {}, {}\n", table, on,
+        exact(size), exact(along[0]), exact(along[1]), exact(along[2]));
   }
 
   // ---- loads spread over bodies -----------------------------------------------------------------
@@ -245,16 +292,41 @@ class LoadWriter {
     return all.size() == 1 ? *all.begin() : 0;
   }
 
+  /// Whether the body forces of a set can be written by its density: along one direction in all
+  /// steps.
+  bool is_acceleration(const Name& on) const {
+    const Load* first = nullptr;
+    for (const Step& step : d_.steps)
+      for (const Load& load : step.body_force) {
+        if (load.on.value != on.value) continue;
+        if (!first) first = &load;
+        for (std::size_t k = 0; k < 3; ++k)
+          if (load.values[k].has_value() != first->values[k].has_value()) return false;
+        if (components(load).normalized() != components(*first).normalized()) return false;
+      }
+    return density_on(on) > 0;
+  }
+
   /// A ramp or a table, and what it ends at.
   std::string spread(const Load& load, const std::string& what, double size,
                      const std::string& direction) {
     OneStanding& now = spread_[{what, 0}];
-    if (now.load && stops(*now.load) && now.load != &load)
-      throw core::InputError(load.mark, "what had a table in a step before is not written here");
+    directions_[what] = direction;
     double said = size;
     const std::string table = ramp(load, now.end, said);
     now = {&load, size * end_of(load)};
-    return fmt::format("*DLOAD{}\n{}, {}, {}\n", table, what, exact(said), direction);
+    return fmt::format("*DLOAD{}\n{}, {}{}\n", table, what, exact(said), direction);
+  }
+  /// What had a table in a step before stands still.
+  std::string still_spread(const std::set<const Load*>& here) {
+    std::string out;
+    for (auto& [key, value] : spread_) {
+      if (!value.load || here.contains(value.load) || search_ || !stops(*value.load)) continue;
+      out +=
+          fmt::format("*DLOAD\n{}, {}{}\n", key.first, exact(value.end), directions_.at(key.first));
+      value.load = nullptr;
+    }
+    return out;
   }
 
   /// Accelerations of elements: along one direction in all steps.
@@ -263,67 +335,86 @@ class LoadWriter {
     Vec3& along = gravity_.try_emplace(what, Vec3::Zero()).first->second;
     const double size = acceleration.norm();
     if (size > 0 && along.norm() > 0 &&
-        (along.normalized() - acceleration / size).cwiseAbs().maxCoeff() > 0)
-      throw core::InputError(load.mark, "a body force that changes its direction is not written");
+        (along.normalized() - acceleration / size).cwiseAbs().maxCoeff() > rounding_of_directions)
+      throw core::InputError(load.mark, "gravity that changes its direction is not written");
     if (size > 0) along = acceleration;
     if (!(along.norm() > 0)) return {};
     return spread(load, what, size,
-                  fmt::format("{}, {}, {}", exact(along[0]), exact(along[1]), exact(along[2])));
+                  fmt::format(", {}, {}, {}", exact(along[0]), exact(along[1]), exact(along[2])));
   }
 
   std::string distributed(const Step& step) {
     std::string out;
+    std::set<const Load*> here;
     if (step.gravity) {
-      if (!d_.masses.empty())
-        throw core::InputError(step.gravity->mark, "gravity of `masses` is not written");
-      Vec3 g = Vec3::Zero();
-      for (std::size_t k = 0; k < step.gravity->value.size(); ++k)
-        g[static_cast<Eigen::Index>(k)] = step.gravity->value[k];
       Load& load = kept_.emplace_back(1).front();
-      load.mark = step.gravity->mark;
-      const bool at_once = std::exchange(at_once_, false);  // as gravity of a model file does
-      std::set<std::string> done;
-      for (std::size_t s = 0; s < d_.sections.size(); ++s)
-        if (density_of(s) > 0)
-          if (const auto [on, is_new] = done.insert(mesh_.whole_elements(s)); is_new)
-            out += accelerate(load, *on, g);
-      at_once_ = at_once;
+      here.insert(&load);
+      out += gravity(step, load);
     }
     for (const Load& load : step.body_force) {
-      const double density = density_on(load.on);
-      if (step.gravity || !(density > 0))
-        throw core::InputError(load.mark,
-                               "an input file has body forces by the density alone, and not "
-                               "beside gravity");
-      Vec3 f = Vec3::Zero();
-      for (Eigen::Index k = 0; k < 3; ++k)
-        if (const auto& value = load.values[static_cast<std::size_t>(k)]) f[k] = value->value;
-      out += accelerate(load, mesh_.elements(load.on), f / density);
+      here.insert(&load);
+      if (std::ranges::any_of(d_.steps, [](const Step& one) { return one.gravity.has_value(); }))
+        throw core::InputError(load.mark, "body forces beside `gravity` are not written");
+      const std::string& on = mesh_.elements(load.on);
+      if (is_acceleration(load.on))
+        out += accelerate(load, on, components(load) / density_on(load.on));
+      else
+        for (std::size_t k = 0; k < 3; ++k)
+          if (load.values[k])
+            out += spread(load, fmt::format("{}, B{}", on, "XYZ"[k]), load.values[k]->value, "");
     }
     for (const Load& load : step.centrifugal) {
+      here.insert(&load);
       const Vec3 along = load.to - load.from;
       out += spread(
           load, mesh_.elements(load.on) + ", CENTRIF", load.values[0]->value,
-          fmt::format("{}, {}, {}, {}, {}, {}", exact(load.from[0]), exact(load.from[1]),
+          fmt::format(", {}, {}, {}, {}, {}, {}", exact(load.from[0]), exact(load.from[1]),
                       exact(load.from[2]), exact(along[0]), exact(along[1]), exact(along[2])));
     }
+    return out + still_spread(here);
+  }
+
+  /// Of all that has a density, and of masses.
+  std::string gravity(const Step& step, Load& load) {
+    if (!d_.masses.empty() && step.modal)
+      throw core::InputError(step.gravity->mark,
+                             "gravity of `masses` is not written in a step with `modal`");
+    Vec3 g = Vec3::Zero();
+    for (std::size_t k = 0; k < step.gravity->value.size(); ++k)
+      g[static_cast<Eigen::Index>(k)] = step.gravity->value[k];
+    load.mark = step.gravity->mark;
+    const bool at_once = std::exchange(at_once_, false);  // as gravity of a model file does
+    std::string out;
+    std::set<std::string> done;
+    for (std::size_t s = 0; s < d_.sections.size(); ++s)
+      if (density_of(s) > 0)
+        if (const auto [on, is_new] = done.insert(mesh_.whole_elements(s)); is_new)
+          out += accelerate(load, *on, g);
+    for (std::size_t k = 0; k < d_.masses.size(); ++k) out += accelerate(load, mass_name(k), g);
+    at_once_ = at_once;
     return out;
   }
 
   // ---- loads that swing -------------------------------------------------------------------------
 
-  /// Real and imaginary parts, of which nothing stays.
+  /// Real and imaginary parts alone: nothing of the steps before swings along.
   std::string swings(const Step& step) {
-    for (const auto* const other : {&step.temperature, &step.centrifugal, &step.body_force,
-                                    &step.traction, &step.total_force})
+    for (const auto* const other : {&step.temperature, &step.centrifugal})
       if (!other->empty())
         throw core::InputError(other->front().mark, "such loads that swing are not written");
-    std::string out, first = fresh_swing_ ? "" : ", OP=NEW";
-    fresh_swing_ = false;
+    if (!forces_.empty()) swung_.insert("CLOAD");
+    if (!pressures_.empty() || !tractions_.empty()) swung_.insert("DSLOAD");
+    if (!spread_.empty()) swung_.insert("DLOAD");
+    std::string out;
+    for (const std::string& card : swung_)
+      out += fmt::format("*{0}, OP=NEW\n*{0}, OP=NEW, LOAD CASE=2\n", card);
     for (const bool imaginary : {false, true}) {
-      const std::string part = imaginary ? ", LOAD CASE=2" : "";
+      const auto head = [&](const char* card, const Load& load) {
+        const std::string name = card;
+        swung_.insert(name.substr(0, name.find(',')));
+        return fmt::format("*{}{}{}\n", name, imaginary ? ", LOAD CASE=2" : "", amplitude(load));
+      };
       const auto add = [&](const std::vector<Load>& loads, const char* card, bool support) {
-        std::string opening = first;
         for (const Load& load : loads)
           for (int k = 0; k < static_cast<int>(component_count); ++k) {
             const auto& value = load.values[static_cast<std::size_t>(k)];
@@ -331,19 +422,35 @@ class LoadWriter {
             const DeckPlace at = place(load.on, k);
             const double size = value->value * share(load, imaginary) * (support ? 1 : rings());
             if (size == 0 && (imaginary || !support)) continue;
-            out += fmt::format("*{}{}{}{}\n{}, {}, {}{}\n", card, opening, part, amplitude(load),
-                               at.on, at.direction,
+            out += fmt::format("{}{}, {}, {}{}\n", head(card, load), at.on, at.direction,
                                support ? fmt::format("{}, ", at.direction) : "", exact(size));
-            opening.clear();
           }
       };
       add(step.prescribe, "BOUNDARY", true);
-      add(step.forces, "CLOAD", false);
+      add(node_forces(step), "CLOAD", false);
       for (const Load& load : step.pressure)
         if (const double size = load.values[0]->value * share(load, imaginary); size != 0)
-          out += fmt::format("*DSLOAD{}{}\n{}, P, {}\n", part, amplitude(load),
-                             mesh_.surface(load.on), exact(size));
+          out += fmt::format("{}{}, P, {}\n", head("DSLOAD", load), mesh_.surface(load.on),
+                             exact(size));
+      out += spread_swings(step, imaginary, head);
     }
+    return out;
+  }
+  /// Tractions and body forces.
+  template <class Head>
+  std::string spread_swings(const Step& step, bool imaginary, const Head& head) {
+    std::string out;
+    for (const Load& load : surface_forces(step))
+      if (const Vec3 t = components(load) * share(load, imaginary); t.norm() > 0)
+        out += fmt::format("{}{}, TRVEC, {}, {}, {}, {}\n",
+                           head("DSLOAD, FOLLOWER=NO, CONSTANT RESULTANT=YES", load),
+                           mesh_.surface(load.on), exact(t.norm()), exact(t[0] / t.norm()),
+                           exact(t[1] / t.norm()), exact(t[2] / t.norm()));
+    for (const Load& load : step.body_force)
+      for (Eigen::Index k = 0; k < 3; ++k)
+        if (const double size = components(load)[k] * share(load, imaginary); size != 0)
+          out += fmt::format("{}{}, B{}, {}\n", head("DLOAD", load), mesh_.elements(load.on),
+                             "XYZ"[k], exact(size));
     return out;
   }
   /// Part of a load with its phase.
@@ -363,12 +470,14 @@ class LoadWriter {
   std::string amplitudes_;
   double duration_ = 1;
   int ramps_ = 0;
-  bool at_once_ = false, was_at_once_ = false, search_ = false, fresh_swing_ = true;
+  bool at_once_ = false, was_at_once_ = false, search_ = false;
   std::set<std::string> written_;
   std::map<std::string, Name> named_;     ///< sets of the model file by their names in the deck
   std::map<std::string, bool> in_total_;  ///< forces on nodes of a set, in all steps
   std::list<std::vector<Load>> kept_;     ///< loads that no step has itself
   std::map<std::string, Vec3> gravity_;
+  std::map<std::string, std::string> directions_;  ///< of spread_, as they were written
+  std::set<std::string> swung_;  ///< cards of what swung before, or stood before it swings
   Standing forces_, pressures_, tractions_, spread_, temperatures_;
 };
 

@@ -117,6 +117,7 @@ class InpMesh {
   /// Fails where the deck that was written is not that of the mesh and its sections.
   void require_same(const std::string& text) const;
   [[nodiscard]] bool is_curved(const Name& surface) const;
+  [[nodiscard]] bool share_facets(const Name& one, const Name& other) const;
   /// Of a set of facets, undeformed.
   [[nodiscard]] double area(const Name& surface) const;
   /// Of a rigid body by its name.
@@ -185,6 +186,8 @@ template <int Dim>
 void write_springs(const Description& d, InpMesh<Dim>& mesh, Leaves& leaves, std::string& out);
 template <int Dim>
 void write_masses(const Description& d, InpMesh<Dim>& mesh, Leaves& leaves, std::string& out);
+/// Name of the elements of the k-th of `masses`.
+[[nodiscard]] inline std::string mass_name(std::size_t k) { return fmt::format("mass_{}", k + 1); }
 template <int Dim>
 void write_axes(const Description& d, InpMesh<Dim>& mesh, Leaves& leaves, std::string& out);
 /// Nodes that stay in one plane, on one line, at their distance.

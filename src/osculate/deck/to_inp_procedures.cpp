@@ -166,7 +166,8 @@ std::string request_of(const AnswerRequest& request, bool file, const Descriptio
 ProcedureCards procedure_of(const Description& d, std::size_t number, bool finite, bool moved) {
   const Step& step = d.steps[number];
   const double duration = step.duration ? step.duration->value : 1;
-  const std::string geometry = finite ? ", NLGEOM" : "";
+  const bool far = !d.coplanar.empty() || !d.collinear.empty() || !d.fixed_distance.empty();
+  const std::string geometry = finite ? ", NLGEOM" : far ? ", NLGEOM=NO" : "";  // *MPC brings it
   const auto begin = [&](const Step& search) {
     if (is_on_top(search, moved)) return std::string("*STEP, PERTURBATION\n");
     return fmt::format("*STEP{}\n", moved ? "" : geometry);

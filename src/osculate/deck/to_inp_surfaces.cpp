@@ -39,6 +39,23 @@ bool InpMesh<Dim>::is_curved(const Name& surface) const {
                              [](const auto& f) { return cell::info(f.type).order > 1; });
 }
 
+template <int Dim>
+bool InpMesh<Dim>::share_facets(const Name& one, const Name& other) const {
+  const auto places = [&](const Name& on) {
+    std::set<std::vector<Index>> all;
+    for (const Side<Dim>& facet : facets(on)) {
+      const auto nodes = facet.nodes();
+      std::vector<Index> sorted(nodes.begin(), nodes.end());
+      std::ranges::sort(sorted);
+      all.insert(std::move(sorted));
+    }
+    return all;
+  };
+  const auto of_one = places(one);
+  return std::ranges::any_of(places(other),
+                             [&](const auto& facet) { return of_one.contains(facet); });
+}
+
 /// `4, S2`.
 template <int Dim>
 std::string InpMesh<Dim>::side_of(const mesh::CellRef& parent, std::span<const Index> nodes,
@@ -172,12 +189,14 @@ const std::string& InpMesh<Dim>::surface_named(const Name& on) const {
 
 template double InpMesh<2>::area(const Name&) const;
 template bool InpMesh<2>::is_curved(const Name&) const;
+template bool InpMesh<2>::share_facets(const Name&, const Name&) const;
 template const std::string& InpMesh<2>::surface(const Name&, bool);
 template const std::string& InpMesh<2>::surface_ahead(const Name&, const Vec3&);
 template const std::string& InpMesh<2>::surface_of_cut(const Name&);
 template const std::string& InpMesh<2>::surface_named(const Name&) const;
 template double InpMesh<3>::area(const Name&) const;
 template bool InpMesh<3>::is_curved(const Name&) const;
+template bool InpMesh<3>::share_facets(const Name&, const Name&) const;
 template const std::string& InpMesh<3>::surface(const Name&, bool);
 template const std::string& InpMesh<3>::surface_ahead(const Name&, const Vec3&);
 template const std::string& InpMesh<3>::surface_of_cut(const Name&);

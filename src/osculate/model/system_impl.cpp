@@ -214,6 +214,24 @@ bool BasicSystem<Dim>::Impl::flies_apart(const State& committed, const State& tr
 }
 
 template <int Dim>
+void BasicSystem<Dim>::Impl::add_loads(const State& now, double fraction, bool with_tangent,
+                                       Assembly<Dim>& to) {
+  if (on(Term::pressure)) loads.add_pressure(step, now, fraction, to);
+  if (pressures_turn && with_tangent) loads.add_turning_pressure(step, fraction, to);
+  loads.add_dead_loads(step, fraction, last.forces);
+  loads.add_gravity(step, fraction, motion ? &motion->inertia : nullptr, last.forces);
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::add_turning(const State& now, std::span<const Vec<Dim>> x,
+                                         bool with_tangent, Assembly<Dim>& to) {
+  const bool of_bodies = with_tangent && on(Term::rigid);
+  const SmallRotations small = with_stresses ? SmallRotations::turn : SmallRotations::linear;
+  turn_moments(model, now, of_bodies, to, small);
+  if (of_bodies) add_rigid_geometry<Dim>(model, now, x, total_force(), to, small);
+}
+
+template <int Dim>
 void BasicSystem<Dim>::Impl::assemble_terms(const State& committed, const Trial& trial,
                                             double fraction, bool with_tangent, Pass pass,
                                             solve::Evaluation& out) {
@@ -262,15 +280,9 @@ void BasicSystem<Dim>::Impl::assemble_terms(const State& committed, const Trial&
   if (on(Term::contact))
     contact.add(committed, trial, fraction, length, x, pass == Pass::iterate, constraints, to, out);
   if (on(Term::rigid)) constraints.add_nodes(now, x, to);
-  if (on(Term::pressure)) loads.add_pressure(step, now, fraction, to);
-  if (pressures_turn && with_tangent) loads.add_turning_pressure(step, fraction, to);
-  loads.add_dead_loads(step, fraction, last.forces);
-  loads.add_gravity(step, fraction, motion ? &motion->inertia : nullptr, last.forces);
+  add_loads(now, fraction, with_tangent, to);
   if (timed()) motion->add_inertia(now, to);
-  const SmallRotations small = with_stresses ? SmallRotations::turn : SmallRotations::linear;
-  turn_moments(model, now, with_tangent && on(Term::rigid), to, small);
-  if (with_tangent && on(Term::rigid))
-    add_rigid_geometry<Dim>(model, now, x, total_force(), to, small);
+  add_turning(now, x, with_tangent, to);
   if (with_tangent) {
     assembler.add_prescribed_diagonal(1.0);
     if (resistance.share > 0) resistance.add(resistance.share, assembler, builder);

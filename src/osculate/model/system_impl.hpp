@@ -111,6 +111,10 @@ struct BasicSystem<Dim>::Impl {
   }
   void assemble_terms(const State& committed, const Trial& trial, double fraction,
                       bool with_tangent, Pass pass, solve::Evaluation& out);
+  // Its parts: loads; what turns with rigid bodies and moments.
+  void add_loads(const State& now, double fraction, bool with_tangent, Assembly<Dim>& to);
+  void add_turning(const State& now, std::span<const Vec<Dim>> x, bool with_tangent,
+                   Assembly<Dim>& to);
   /// Residual and its measures, of the last evaluation.
   void report(std::span<const Vec<Dim>> x, bool predict, solve::Evaluation& out) const;
 

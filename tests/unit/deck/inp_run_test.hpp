@@ -1,5 +1,5 @@
 #pragma once
-// Decks, run from a file to displacements and reactions of nodes.
+// Decks and model files in space, run to displacements and reactions of nodes.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -34,9 +34,10 @@ struct DeckRun {
   }
 };
 
-inline DeckRun run_deck(const std::string& text) {
+/// Of a deck, or of a model file by the ending of its name.
+inline DeckRun run_deck(const std::string& text, const std::string& ending = ".inp") {
   const std::string path = ::testing::TempDir() + "osculate_" +
-                           ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".inp";
+                           ::testing::UnitTest::GetInstance()->current_test_info()->name() + ending;
   std::ofstream(path) << text;
   DeckRun run;
   AnyBuilt built = build_any_file(path);

@@ -294,6 +294,30 @@ TEST(InpConstraints, NodesStayInAPlaneOnALineAndAtTheirDistance) {
   EXPECT_NEAR(rod.reaction_of("START").y(), -3, 1e-7);
 }
 
+// As CalculiX does: l = 1.1 by F = E A l (l^2 - 1) / 2, with small strains by F = E A (l - 1).
+TEST(InpConstraints, ConditionsOfNodesBringFiniteStrains) {
+  const std::string pull = "*CLOAD\nFINISH, 1, 2.8875\n", beam = "*MPC\nBEAM, 21, 22\n";
+  constexpr double far = 2 * 0.1, small = 2 * 0.1155;
+  const auto run = [&](const std::string& mpc, const std::string& steps) {
+    return run_deck(bar(2) + fixed + mpc + steps);
+  };
+  for (const std::string& mpc :
+       {beam, std::string("*MPC\nSTRAIGHT, 1, 11, 21\n"), std::string("*MPC\nPLANE, FINISH\n")}) {
+    EXPECT_NEAR(run(mpc, step(pull)).displacement(21).x(), far, 1e-9) << mpc;
+    EXPECT_NEAR(run(mpc, step(pull, ", NLGEOM=NO")).displacement(21).x(), small, 1e-9) << mpc;
+  }
+  EXPECT_NEAR(run("", step(pull)).displacement(21).x(), small, 1e-9);
+  EXPECT_NEAR(run("*MPC\nPIN, 21, 22\n", step(pull)).displacement(21).x(), small, 1e-9);
+  const DeckRun two = run(beam, step("*CLOAD\n21, 1, 0.\n", ", NLGEOM=NO") + step(pull));
+  EXPECT_NEAR(two.displacement(21, 1).x(), small, 1e-9);
+  const auto notes = [&](const std::string& parameters) {
+    return translate_deck(bar(2) + fixed + beam + step(pull, parameters), "a.inp").notes;
+  };
+  EXPECT_THAT(notes(""), ::testing::Contains(HasSubstr("makes displacements and strains those of "
+                                                       "NLGEOM")));
+  EXPECT_TRUE(notes(", NLGEOM").empty());
+}
+
 /// Pulled together by a force, then kept as it is while the bar is pulled: F = E A delta / L.
 TEST(InpConstraints, PretensionIsAForceAndThenLocked) {
   const std::string section =

@@ -203,10 +203,6 @@ TEST(ToInp, WhatHasNoCounterpartIsRefusedByItsKey) {
                       "rigid: {r: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}}}\n"
                       "sections:\n"),
               HasSubstr("rigid.r.plane"));
-  EXPECT_THAT(refusal("{on: high.left, uy: 0}]",
-                      "{on: high.left, uy: 0}]\n    traction: [{on: high.top, tz: 1, amplitude: "
-                      "there_and_back}]"),
-              HasSubstr("is written of the last step alone"));
   EXPECT_THAT(
       refusal("pressure: [{on: low.right, value: 3}]",
               "forces: [{on: high.top, fy: 1}]\n    pressure: [{on: low.right, value: 3}]"),

@@ -287,13 +287,25 @@ class Reader {
 
 }  // namespace
 
-bool has_finite_step(const Deck& deck) {
-  return std::any_of(deck.cards.begin(), deck.cards.end(), [](const Card& card) {
-    for (const char* const far : {"HYPERELASTIC", "HYPERFOAM", "DEFORMATIONPLASTICITY"})
-      if (card.keyword == far) return true;
-    return card.keyword == "STEP" && find_parameter(card, "NLGEOM") &&
-           option(card, "NLGEOM") != "NO";
+bool moves_far(const Deck& deck, const Card& mpc) {
+  if (mpc.keyword != "MPC") return false;
+  return std::ranges::any_of(lines_of(deck, mpc), [&](const Line& line) {
+    const std::string kind = capitals(name_of(Fields(deck, line).next().value_or("")));
+    return kind == "PLANE" || kind == "STRAIGHT" || kind == "BEAM";
   });
+}
+
+bool has_finite_step(const Deck& deck) {
+  bool far = false;
+  for (const Card& card : deck.cards) {
+    for (const char* const law : {"HYPERELASTIC", "HYPERFOAM", "DEFORMATIONPLASTICITY"})
+      if (card.keyword == law) return true;
+    far = far || moves_far(deck, card);
+    if (card.keyword != "STEP") continue;
+    if (find_parameter(card, "NLGEOM")) far = option(card, "NLGEOM") != "NO";
+    if (far) return true;
+  }
+  return false;
 }
 
 bool is_layered(const Card& card) {

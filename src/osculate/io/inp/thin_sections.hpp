@@ -45,8 +45,11 @@ struct ThinCards {
   std::map<Index, std::array<bool, 3>> held;         ///< by node: displacements of `*BOUNDARY`
 };
 
-/// Whether a step has NLGEOM or a material is hyperelastic: displacements and rotations are of any
-/// size.
+/// Whether a card is an `*MPC` with PLANE, STRAIGHT or BEAM.
+[[nodiscard]] bool moves_far(const Deck& deck, const Card& mpc);
+/// Whether a step has NLGEOM, or a material is hyperelastic: displacements and rotations are of any
+/// size. An `*MPC` that moves far gives the first step NLGEOM, as in CalculiX, unless it says
+/// NLGEOM=NO.
 [[nodiscard]] bool has_finite_step(const Deck& deck);
 /// Whether a section card is one of a shell of layers.
 [[nodiscard]] bool is_layered(const Card& card);
