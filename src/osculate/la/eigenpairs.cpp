@@ -5,6 +5,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -14,31 +15,20 @@
 namespace osculate::la {
 namespace {
 
-/// K - s M as Spectra wants to see it, factored.
-struct Inverse {
-  using Scalar = double;
-  Eigen::Index n;
-  LinearSolver& solver;
-  bool& failed;
-  [[nodiscard]] Eigen::Index rows() const { return n; }
-  [[nodiscard]] Eigen::Index cols() const { return n; }
-  void set_shift(double) {}  // it is in the factors
-  void perform_op(const double* in, double* out) const {
-    Eigen::VectorXd x = Eigen::Map<const Eigen::VectorXd>(in, n);
-    if (solver.solve(x) != SolveStatus::ok) failed = true;
-    if (failed) x.setZero();
-    Eigen::Map<Eigen::VectorXd>(out, n) = x;
-  }
-};
-
+/// M x. Spectra asks twice in a row for that of one vector: a norm, then products with others.
 struct Mass {
   using Scalar = double;
   const Sparse& m;
+  mutable Eigen::VectorXd last, of_last;
   [[nodiscard]] Eigen::Index rows() const { return m.rows(); }
   [[nodiscard]] Eigen::Index cols() const { return m.cols(); }
   void perform_op(const double* in, double* out) const {
-    Eigen::Map<Eigen::VectorXd>(out, m.rows()) =
-        m * Eigen::Map<const Eigen::VectorXd>(in, m.rows());
+    const Eigen::Map<const Eigen::VectorXd> x(in, m.rows());
+    if (last.size() == 0 || last != x) {
+      last = x;
+      of_last = m * x;
+    }
+    Eigen::Map<Eigen::VectorXd>(out, m.rows()) = of_last;
   }
 };
 
@@ -52,18 +42,74 @@ double small_part(const Sparse& k, const Sparse& m) {
   return largest > 0 ? share * largest : 1;
 }
 
+/// Where the entries of M are among those of K.
+std::vector<std::size_t> places_within(const Sparse& k, const Sparse& m) {
+  std::vector<std::size_t> places;
+  places.reserve(static_cast<std::size_t>(m.nonZeros()));
+  for (Index row = 0; row < m.outerSize(); ++row) {
+    Index at = k.outerIndexPtr()[row];
+    for (Sparse::InnerIterator it(m, row); it; ++it) {
+      while (k.innerIndexPtr()[at] != it.col()) ++at;
+      assert(at < k.outerIndexPtr()[row + 1]);
+      places.push_back(static_cast<std::size_t>(at));
+    }
+  }
+  return places;
+}
+
 struct Problem {
   Sparse k, m;
   LinearSolver& solver;
   Eigen::Index with_mass = 0;  ///< unknowns that have one
   std::uint64_t version = 1;
+  SparseMatrix shifted = plain(k);  ///< K - s M, the last one factored
+  std::vector<std::size_t> place = places_within(k, m);
+  bool corrected = true;  ///< solutions by the residual: not where they have all digits without
+  /// Of a shift below all eigenvalues, by the signs of the pivots there.
+  double below_all = -std::numeric_limits<double>::infinity();
 
   /// Factors K - shift M.
   FactorReport factor(double shift) {
-    const Sparse shifted = k - shift * m;
-    return solver.factor(plain(shifted), version, Symmetry::indefinite);
+    corrected = true;
+    std::copy_n(k.valuePtr(), k.nonZeros(), shifted.value.begin());
+    for (std::size_t e = 0; e < place.size(); ++e)
+      shifted.value[place[e]] -= shift * m.valuePtr()[e];
+    FactorReport report = solver.factor(shifted, version, Symmetry::indefinite);
+    if (report.status == SolveStatus::ok && report.negative_pivots == 0)
+      below_all = std::max(below_all, shift);
+    return report;
+  }
+  bool solve(Eigen::VectorXd& x) {
+    return (corrected ? solver.solve(x) : solver.solve_once(x)) == SolveStatus::ok;
+  }
+  /// As solve, the first one with these factors, of a right-hand side as smooth as the solutions
+  /// that lose most digits: what it does not need the others are spared.
+  bool solve_first(Eigen::VectorXd& x) {
+    constexpr double all_digits = 1e-12;
+    const Eigen::VectorXd b = x;
+    corrected = solver.solve_once(x) != SolveStatus::ok ||
+                !((multiply_symmetric(shifted, x) - b).norm() <= all_digits * b.norm());
+    if (!corrected) return true;
+    x = b;
+    return solve(x);
   }
   [[nodiscard]] double small_shift() const { return small_part(k, m); }
+};
+
+/// (K - s M)^-1 as Spectra wants to see it, factored.
+struct Inverse {
+  using Scalar = double;
+  Problem& p;
+  bool& failed;
+  [[nodiscard]] Eigen::Index rows() const { return p.k.rows(); }
+  [[nodiscard]] Eigen::Index cols() const { return p.k.rows(); }
+  void set_shift(double) {}  // it is in the factors
+  void perform_op(const double* in, double* out) const {
+    Eigen::VectorXd x = Eigen::Map<const Eigen::VectorXd>(in, rows());
+    if (!p.solve(x)) failed = true;
+    if (failed) x.setZero();
+    Eigen::Map<Eigen::VectorXd>(out, rows()) = x;
+  }
 };
 
 /// Whether the factors of K are those of a matrix that is not singular but for rounding.
@@ -77,22 +123,18 @@ bool solves(Problem& p) {
          (p.k * x - b).norm() <= exact * b.norm();
 }
 
-/// |K| |v| , absolute values entry by entry.
-Eigen::VectorXd absolute_product(const Sparse& k, const Eigen::VectorXd& v) {
-  Eigen::VectorXd out = Eigen::VectorXd::Zero(v.size());
-  for (Index row = 0; row < k.outerSize(); ++row)
-    for (Sparse::InnerIterator it(k, row); it; ++it) out[row] += std::abs(it.value() * v[it.col()]);
-  return out;
-}
-
 /// Vectors of the space in which M is not zero, normalised; and how good they are. Values that
 /// cannot be told from 0 are 0.
 void clean(Problem& p, Eigenpairs& pairs) {
-  p.solver.solve(pairs.vectors = p.m * pairs.vectors);
+  const Sparse sizes = p.k.cwiseAbs();
   for (Eigen::Index i = 0; i < pairs.values.size(); ++i) {
-    auto v = pairs.vectors.col(i);
-    v /= std::sqrt(v.dot(p.m * v));
-    const Eigen::VectorXd mv = p.m * v, kv = p.k * v, most = absolute_product(p.k, v);
+    Eigen::VectorXd v = p.m * pairs.vectors.col(i);
+    p.solve(v);
+    Eigen::VectorXd mv = p.m * v;
+    const double norm = std::sqrt(v.dot(mv));
+    v /= norm;
+    mv /= norm;
+    const Eigen::VectorXd kv = p.k * v, most = sizes * v.cwiseAbs();
     const double rounding = 4 * std::numeric_limits<double>::epsilon() * v.cwiseAbs().dot(most);
     pairs.rounding = std::max(pairs.rounding, rounding);
     const bool free = std::abs(v.dot(kv)) <= rounding;
@@ -101,25 +143,29 @@ void clean(Problem& p, Eigenpairs& pairs) {
                  scale = free ? most.norm()
                               : (std::abs(pairs.values[i]) + std::abs(pairs.shift)) * mv.norm();
     if (off > 0) pairs.residual = std::max(pairs.residual, off / scale);
+    pairs.vectors.col(i) = v;
   }
 }
 
-/// Eigenvalues up to the last one that are not there.
-int count_missing(Problem& p, const Eigenpairs& pairs) {
+/// Eigenvalues up to the last one of the first `wanted` that are not there.
+int count_missing(Problem& p, const Eigenpairs& pairs, Eigen::Index wanted) {
   constexpr double share = 1e-6, far = 1e3;
-  const Eigen::Index n = pairs.values.size();
-  const double last = pairs.values[n - 1], first = pairs.values[0];
+  const double last = pairs.values[std::min(wanted, pairs.values.size()) - 1],
+               first = pairs.values[0];
   const double above = share * (std::abs(last) + std::abs(pairs.shift));
   // Rows without mass are in balance at once: their pivots do not depend on the shift.
   const double below = far * (std::abs(first) + std::abs(pairs.shift) + pairs.rounding);
-  const FactorReport without = p.factor(first - below);
+  FactorReport without;  // none where that is below a shift that is below all
+  if (first - below > p.below_all) without = p.factor(first - below);
   if (without.status == SolveStatus::failed) return -1;
   // The signs of pivots next to an eigenvalue are those of rounding: one that was found is below.
   int missing = -1;
   for (double times = 10; missing < 0 && times <= 1e3; times *= 10) {
-    const FactorReport with = p.factor(last + std::max(above, times * pairs.rounding));
+    const double cut = last + std::max(above, times * pairs.rounding);
+    const FactorReport with = p.factor(cut);
     if (with.status == SolveStatus::failed) return -1;
-    missing = with.negative_pivots - without.negative_pivots - static_cast<int>(n);
+    const auto found = static_cast<int>((pairs.values.array() <= cut).count());
+    missing = with.negative_pivots - without.negative_pivots - found;
   }
   return std::max(missing, -1);
 }
@@ -129,8 +175,8 @@ Eigenpairs found_around(Problem& p, double shift, Eigen::Index count) {
   pairs.shift = shift;
   const Eigen::Index n = p.k.rows();
   bool failed = false;
-  Inverse inverse{n, p.solver, failed};
-  Mass mass{p.m};
+  Inverse inverse{p, failed};
+  Mass mass{p.m, {}, {}};
   const Eigen::Index space = std::min(p.with_mass, std::max(2 * count + 1, count + 20));
   Spectra::SymGEigsShiftSolver<Inverse, Mass, Spectra::GEigsMode::ShiftInvert> lanczos(
       inverse, mass, count, space, shift);
@@ -138,7 +184,7 @@ Eigenpairs found_around(Problem& p, double shift, Eigen::Index count) {
   Eigen::VectorXd start(n);
   for (Eigen::Index i = 0; i < n; ++i) start[i] = 1 + 0.5 * std::sin(1.7 * static_cast<double>(i));
   start = p.m * start;
-  if (p.solver.solve(start) != SolveStatus::ok || !(start.norm() > 0)) {
+  if (!p.solve_first(start) || !(start.norm() > 0)) {
     pairs.failure = "the stiffness cannot be solved for";
     return pairs;
   }
@@ -224,21 +270,28 @@ Eigenpairs smallest_of(Problem p, int count) {
   }
   if (all_of_them) return all_around(p, shift, wanted);
   constexpr int tries = 3;
+  constexpr double no_vibration = 1e-3;
   Eigenpairs pairs;
-  Eigen::Index more = wanted;
+  // Of equal ones Lanczos' method finds one alone at first: with one more there is time for both.
+  Eigen::Index more = std::min(wanted + 1, p.with_mass - 1);
   for (int i = 0; i < tries; ++i) {
     pairs = found_around(p, shift, more);
     // A matrix that is nearly singular: its inverse sees little else.
-    if (shift == 0 && (!pairs.failure.empty() || pairs.without_stiffness() > 0)) {
+    if (shift == 0 && (!pairs.failure.empty() || pairs.without_stiffness() > 0 ||
+                       !(pairs.residual <= no_vibration))) {
       shift = -p.small_shift();
       if (p.factor(shift).status == SolveStatus::failed) break;
       pairs = found_around(p, shift, more);
     }
     if (!pairs.failure.empty()) return pairs;
-    pairs.missing = count_missing(p, pairs);
+    pairs.missing = count_missing(p, pairs, wanted);
     if (pairs.missing <= 0 || more + pairs.missing >= p.with_mass) break;
     more += pairs.missing;
     if (p.factor(shift).status == SolveStatus::failed) break;
+  }
+  if (pairs.values.size() > wanted) {
+    pairs.values.conservativeResize(wanted);
+    pairs.vectors.conservativeResize(Eigen::NoChange, wanted);
   }
   return pairs;
 }

@@ -1,6 +1,7 @@
 #include "osculate/la/nearby.hpp"
 
 #include <algorithm>
+#include <vector>
 
 #include "osculate/la/preconditioned.hpp"
 
@@ -18,6 +19,22 @@ Nearby solve_nearby(const SparseMatrix& k, Symmetry symmetry, LinearSolver& fact
       },
       [&factors](Eigen::VectorXd& x) { return factors.solve_once(x) == SolveStatus::ok; }, once,
       rhs_in_solution_out);
+}
+
+FactorReport factor_symmetric_part(const SparseMatrix& k, std::uint64_t pattern_version,
+                                   LinearSolver& solver) {
+  SparseMatrix half = k;  // only its upper triangle counts
+  const auto at = [](Index i) { return static_cast<std::size_t>(i); };
+  std::vector<Index> next(k.row_start.begin(), k.row_start.end());  // of each row's columns
+  for (Index i = 0; i < k.n; ++i)
+    for (Index e = next[at(i)]; e < k.row_start[at(i) + 1]; ++e) {
+      const Index j = k.column[at(e)];
+      Index& opposite = next[at(j)];
+      while (opposite < k.row_start[at(j) + 1] && k.column[at(opposite)] < i) ++opposite;
+      const bool there = opposite < k.row_start[at(j) + 1] && k.column[at(opposite)] == i;
+      half.value[at(e)] = 0.5 * (k.value[at(e)] + (there ? k.value[at(opposite)] : 0));
+    }
+  return solver.factor(half, pattern_version, Symmetry::indefinite);
 }
 
 int affordable_iterations(const FactorReport& factors, const SparseMatrix& k) {

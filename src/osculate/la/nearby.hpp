@@ -24,6 +24,13 @@ struct NearbyLimits {
 [[nodiscard]] Nearby solve_nearby(const SparseMatrix& k, Symmetry symmetry, LinearSolver& factors,
                                   const NearbyLimits& limits, Eigen::VectorXd& rhs_in_solution_out);
 
+/// Factors (K + K^T) / 2 for a matrix whose entries have places on both sides of the diagonal: half
+/// the work and the memory of the factors of K, for which they stand in with `solve_nearby`.
+///
+/// Tested by  tests/unit/la/test_nearby.cpp
+FactorReport factor_symmetric_part(const SparseMatrix& k, std::uint64_t pattern_version,
+                                   LinearSolver& solver);
+
 /// How many iterations of `solve_nearby` are cheaper than half a factorisation: a function of the
 /// report of the factors and the pattern alone, so that the same analysis takes the same way on any
 /// machine.

@@ -360,6 +360,10 @@ la::Symmetry BasicSystem<Dim>::symmetry() const {
   return impl_->symmetry;
 }
 template <int Dim>
+bool BasicSystem<Dim>::nearly_symmetric() const {
+  return impl_->nearly_symmetric;
+}
+template <int Dim>
 const BasicDofSpace<Dim>& BasicSystem<Dim>::dofs() const {
   return impl_->dofs;
 }

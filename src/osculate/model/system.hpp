@@ -185,6 +185,8 @@ class BasicSystem {
   [[nodiscard]] const la::SparseMatrix& matrix();
   [[nodiscard]] std::uint64_t pattern_version() const;
   [[nodiscard]] la::Symmetry symmetry() const;
+  /// Unsymmetric for pressures that follow surfaces alone.
+  [[nodiscard]] bool nearly_symmetric() const;
   /// See model/changing_unknowns.hpp; for la::LinearSolver::may_change.
   [[nodiscard]] std::vector<Index> changing_unknowns() const;
   /// See model/unknown_places.hpp; for la::LinearSolver::place.

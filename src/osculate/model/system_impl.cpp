@@ -21,10 +21,9 @@ bool has_moment_in_space(const BasicModel<Dim>& model, const DeadLoad& load) {
          });
 }
 
-}  // namespace
-
+/// Whether more is unsymmetric than pressures make it.
 template <int Dim>
-bool needs_unsymmetric(const BasicModel<Dim>& model) {
+bool is_unsymmetric_but_for_pressures(const BasicModel<Dim>& model) {
   for (const BasicContactPair<Dim>& pair : model.pairs) {
     const pairing::PairDefinition<Dim>& d = pair.definition;
     if (pairing::is_tied(d) && model.pair_changes.empty()) continue;
@@ -37,12 +36,19 @@ bool needs_unsymmetric(const BasicModel<Dim>& model) {
   bool has_mass = false;
   for (const BasicRigidBody<Dim>& body : model.rigid) has_mass = has_mass || body.mass > 0;
   for (const Step& step : model.steps) {
-    if (!step.pressure.empty()) return true;
     if (Dim == 3 && step.dynamics && has_mass) return true;  // moments of inertia
     for (const DeadLoad& load : step.dead)
       if (has_moment_in_space(model, load)) return true;
   }
   return false;
+}
+
+}  // namespace
+
+template <int Dim>
+bool needs_unsymmetric(const BasicModel<Dim>& model) {
+  return is_unsymmetric_but_for_pressures(model) ||
+         std::ranges::any_of(model.steps, [](const Step& step) { return !step.pressure.empty(); });
 }
 
 template bool needs_unsymmetric(const Model&);
@@ -59,7 +65,9 @@ BasicSystem<Dim>::Impl::Impl(const BasicModel<Dim>& m, int threads)
       loads{m},
       builder(constraints.end),
       assembler(dofs, builder),
-      symmetry(needs_unsymmetric(m) ? la::Symmetry::unsymmetric : la::Symmetry::indefinite) {
+      symmetry(needs_unsymmetric(m) ? la::Symmetry::unsymmetric : la::Symmetry::indefinite),
+      nearly_symmetric(symmetry == la::Symmetry::unsymmetric && constraints.count() == 0 &&
+                       !is_unsymmetric_but_for_pressures(m)) {
   last.contact.resize(model.pairs.size());
   last.memory.resize(memory_size(model));
   touched.assign(model.pairs.size(), false);
@@ -213,6 +221,22 @@ bool BasicSystem<Dim>::Impl::flies_apart(const State& committed, const State& tr
   return true;
 }
 
+/// The first tangent is as a rule that of the bodies at rest, which `resistance` asks for.
+template <int Dim>
+bool BasicSystem<Dim>::Impl::add_bodies(const State& committed, const State& now, double duration,
+                                        const CellInertia<Dim>* inertia, Assembly<Dim>& to,
+                                        solve::Evaluation& out) {
+  const bool measures = to.with_tangent && resistance.diagonal.size() == 0;
+  Eigen::VectorXd at_rest;
+  if (measures && on(Term::bulk) && committed.memory.empty() && now.u.isZero(0))
+    at_rest.setZero(dofs.dofs());
+  bulk.diagonal = at_rest.size() > 0 ? &at_rest : nullptr;
+  const bool added = !on(Term::bulk) || bulk.add(committed, now, duration, inertia, to, out);
+  bulk.diagonal = nullptr;
+  if (added && measures) resistance.measure(bulk, dofs, std::move(at_rest));
+  return added;
+}
+
 template <int Dim>
 void BasicSystem<Dim>::Impl::add_loads(const State& now, double fraction, bool with_tangent,
                                        Assembly<Dim>& to) {
@@ -268,9 +292,7 @@ void BasicSystem<Dim>::Impl::assemble_terms(const State& committed, const Trial&
   if (timed()) of_cells.emplace(motion->cell_inertia());
   if (!model.body_changes.empty()) keep_memory(model, committed.memory, last.memory);
   warm(model, step.temperature, fraction, last.memory);
-  if (on(Term::bulk) &&
-      !bulk.add(committed, now, duration, of_cells ? &*of_cells : nullptr, to, out))
-    return;
+  if (!add_bodies(committed, now, duration, of_cells ? &*of_cells : nullptr, to, out)) return;
   if (with_stresses && with_tangent) {
     std::vector<double> memory = committed.memory;
     warm(model, step.temperature, fraction, memory);
@@ -286,7 +308,6 @@ void BasicSystem<Dim>::Impl::assemble_terms(const State& committed, const Trial&
   if (with_tangent) {
     assembler.add_prescribed_diagonal(1.0);
     if (resistance.share > 0) resistance.add(resistance.share, assembler, builder);
-    if (resistance.diagonal.size() == 0) resistance.measure(bulk, dofs);
   }
   report(x, predict, out);
 }

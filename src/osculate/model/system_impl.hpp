@@ -37,6 +37,7 @@ struct BasicSystem<Dim>::Impl {
   bool pattern_reserved = false;  ///< whoever asks for no matrix pays for none
   BasicAssembler<Dim> assembler;
   la::Symmetry symmetry;
+  bool nearly_symmetric;
   Evaluated<Dim> last;
   std::deque<ContactStates> recent;  ///< of the running attempt
   double assembly_seconds = 0;       ///< beside those of the terms
@@ -109,6 +110,8 @@ struct BasicSystem<Dim>::Impl {
                                        const Eigen::VectorXd* inc = nullptr) {
     return {dofs, assembler, builder, last, with_tangent, inc, force_factor()};
   }
+  bool add_bodies(const State& committed, const State& now, double duration,
+                  const CellInertia<Dim>* inertia, Assembly<Dim>& to, solve::Evaluation& out);
   void assemble_terms(const State& committed, const Trial& trial, double fraction,
                       bool with_tangent, Pass pass, solve::Evaluation& out);
   // Its parts: loads; what turns with rigid bodies and moments.

@@ -34,6 +34,9 @@ class FormerFactors {
   /// Nothing has been factored yet.
   [[nodiscard]] bool first() const { return first_; }
   void forget() { affordable_ = 0; }
+  /// Whether factors of the symmetric part of a tangent may stand in for its own.
+  [[nodiscard]] bool symmetric_part_serves() const { return symmetric_part_serves_; }
+  void refuse_symmetric_part() { symmetric_part_serves_ = false; }
   void keep(const la::FactorReport& report, const la::SparseMatrix& k, const StateCounts& counts) {
     const bool sound = report.status == la::SolveStatus::ok && report.condition == 0;
     affordable_ = sound ? la::affordable_iterations(report, k) : 0;
@@ -80,6 +83,7 @@ class FormerFactors {
   int affordable_ = 0;                   ///< iterations; none without factors
   std::uint64_t states_ = 0, last_ = 0;  ///< of the factors, and of the last correction
   bool fresh_ = true, first_ = true;
+  bool symmetric_part_serves_ = true;
   bool moved_ = false;  ///< points have other states than at the last correction
   int failures_ = 0;    ///< where states had changed
 };

@@ -37,6 +37,13 @@ concept Softens = requires(S s) {
   { s.soften() } -> std::same_as<bool>;  // false: it has no multipliers
 };
 
+/// Systems whose tangents are symmetric but for little, as those with pressures that follow a
+/// surface: what is not symmetric of these is of its rim.
+template <class S>
+concept NearlySymmetric = requires(const S s) {
+  { s.nearly_symmetric() } -> std::same_as<bool>;
+};
+
 namespace detail {
 
 /// Systems that are told between two iterations that no more are wanted.
@@ -67,6 +74,37 @@ bool factor_tangent(S& system, la::LinearSolver& solver, NewtonResult<typename S
   return true;
 }
 
+/// du = -K^-1 R by factors of the symmetric part of K. False: K is to be factored, now and for the
+/// rest of the increment.
+///
+/// Formula    |R + K du| <= 1e-11 |R|, about what factors of K leave
+/// Decision   docs/decisions/069-the-symmetric-part.md
+template <System S>
+bool solve_by_symmetric_part(S& system, la::LinearSolver& solver, const Eigen::VectorXd& residual,
+                             Eigen::VectorXd& du, NewtonResult<typename S::Trial>& result,
+                             FormerFactors& former) {
+  if constexpr (NearlySymmetric<S>) {
+    constexpr Index worth_it = 1000;
+    constexpr la::NearbyLimits limits{8, 1e-11};
+    const la::SparseMatrix& k = system.matrix();
+    if (!system.nearly_symmetric() || !former.symmetric_part_serves() || k.n < worth_it ||
+        solver.asks_for_places())
+      return false;
+    const la::FactorReport report = la::factor_symmetric_part(k, system.pattern_version(), solver);
+    du = -residual;
+    if (report.status != la::SolveStatus::ok || report.condition > 0 ||
+        !la::solve_nearby(k, system.symmetry(), solver, limits, du).solved) {
+      former.refuse_symmetric_part();
+      return false;
+    }
+    result.whole_factors = report.whole;
+    result.bad_row = -1;
+    former.keep(report, k, result.evaluation.counts);
+    return true;
+  }
+  return false;
+}
+
 /// du = -K^-1 R. Returns false and fills the result when the tangent cannot be used.
 template <System S>
 bool solve_correction(S& system, la::LinearSolver& solver, const Eigen::VectorXd& residual,
@@ -81,6 +119,7 @@ bool solve_correction(S& system, la::LinearSolver& solver, const Eigen::VectorXd
     solver.begin_anew();
   else if (former->changed(result))
     solver.may_come_loose();
+  if (former && solve_by_symmetric_part(system, solver, residual, du, result, *former)) return true;
   // A solver that iterates knows after an attempt that the matrix is to be factored.
   const int attempts = solver.asks_for_places() ? 2 : 1;
   for (int attempt = 0; attempt < attempts; ++attempt) {

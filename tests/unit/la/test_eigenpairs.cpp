@@ -83,17 +83,38 @@ TEST(Eigenpairs, OfFreeChainsBeginWithZeros) {
 // What rounding makes of a free motion is zero; a spring of 1e-9, or one that pushes, is not.
 TEST(Eigenpairs, TellSoftFromFree) {
   constexpr Index n = 40;
-  for (const double soft : {1e-9, -1e-9}) {
-    MatrixBuilder k(n);
-    add_chain(0, n, false, k);
-    k.add(0, 0, soft);
+  for (const double soft : {1e-9, -1e-9})
+    for (const int count : {1, 2, 3, 4, 5}) {
+      SCOPED_TRACE(count);
+      MatrixBuilder k(n);
+      add_chain(0, n, false, k);
+      k.add(0, 0, soft);
+      const auto solver = make_default_solver();
+      const Eigenpairs found = smallest_eigenpairs(k.finish(), unit(n), count, *solver);
+      ASSERT_EQ(found.failure, "");
+      EXPECT_EQ(found.values.size(), count);
+      EXPECT_EQ(found.without_stiffness(), 0);
+      EXPECT_EQ(found.missing, 0);
+      EXPECT_NEAR(found.values[0] / (soft / n), 1, 1e-3);
+      EXPECT_LT(found.rounding, 1e-13);
+    }
+}
+
+// Where the last one is equal to the next, as many as were asked for.
+TEST(Eigenpairs, AreAsManyAsWanted) {
+  constexpr Index n = 200;
+  MatrixBuilder k(2 * n);
+  for (Index c = 0; c < 2; ++c) add_chain(c * n, n, true, k);
+  for (const int count : {1, 2, 5, 8, 9}) {
     const auto solver = make_default_solver();
-    const Eigenpairs found = smallest_eigenpairs(k.finish(), unit(n), 3, *solver);
+    const Eigenpairs found = smallest_eigenpairs(k.finish(), unit(2 * n), count, *solver);
     ASSERT_EQ(found.failure, "");
-    EXPECT_EQ(found.without_stiffness(), 0);
+    ASSERT_EQ(found.values.size(), count);
+    EXPECT_EQ(found.vectors.cols(), count);
     EXPECT_EQ(found.missing, 0);
-    EXPECT_NEAR(found.values[0] / (soft / n), 1, 1e-3);
-    EXPECT_LT(found.rounding, 1e-13);
+    EXPECT_LT(found.residual, 1e-9);
+    for (Eigen::Index i = 0; i < count; ++i)
+      EXPECT_NEAR(found.values[i] / of_chain(1 + static_cast<int>(i) / 2, n), 1, 1e-10) << i;
   }
 }
 

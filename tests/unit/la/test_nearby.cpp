@@ -86,6 +86,27 @@ TEST(Nearby, RefusesWhatIsNoNumberOrHasNoFactors) {
   EXPECT_FALSE(solve_nearby(m.finish(), Symmetry::unsymmetric, none, {5, 1e-8}, shorter).solved);
 }
 
+// Beside a dense solver; and they stand in for those of the whole.
+TEST(Nearby, FactorsTheSymmetricPart) {
+  MatrixBuilder m = block(8, 2.0, 0.01);
+  const SparseMatrix& k = m.finish();
+  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(k.n, k.n);
+  for (Index row = 0; row < k.n; ++row)
+    for (Index e = k.row_start[static_cast<std::size_t>(row)];
+         e < k.row_start[static_cast<std::size_t>(row) + 1]; ++e)
+      dense(row, k.column[static_cast<std::size_t>(e)]) = k.value[static_cast<std::size_t>(e)];
+  ASSERT_GT((dense - dense.transpose()).norm(), 0.01);
+  Mumps half;
+  ASSERT_EQ(factor_symmetric_part(k, 1, half).status, SolveStatus::ok);
+  const Eigen::VectorXd b = load(k.n);
+  Eigen::VectorXd x = b, whole = b;
+  ASSERT_EQ(half.solve(x), SolveStatus::ok);
+  EXPECT_LT((0.5 * (dense + dense.transpose()) * x - b).norm(), 1e-11 * b.norm());
+  EXPECT_GT((dense * x - b).norm(), 1e-6 * b.norm());
+  EXPECT_TRUE(solve_nearby(k, Symmetry::unsymmetric, half, {20, 1e-11}, whole).solved);
+  EXPECT_LE((dense * whole - b).norm(), 1.1e-11 * b.norm());
+}
+
 TEST(Nearby, IsAffordableWhereFactorsAreDear) {
   MatrixBuilder m = block(0, 0);
   const SparseMatrix& k = m.finish();

@@ -3,6 +3,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "osculate/model/stopwatch.hpp"
 
@@ -63,6 +64,8 @@ bool BulkTerm<Dim>::add(const State& committed, const State& trial, double durat
       for (int k = 0; k < block.dof_count; ++k)
         to.into.forces.internal[d[static_cast<std::size_t>(k)]] += block.result.force[k];
       if (!to.with_tangent) continue;
+      for (int k = 0; diagonal && k < block.dof_count; ++k)
+        (*diagonal)[d[static_cast<std::size_t>(k)]] += std::abs(block.result.tangent(k, k));
       if (inertia) inertia->add_to(start + i, block.result.tangent);
       to.add_stiffness(d, block.result.tangent);
     }

@@ -30,6 +30,8 @@ struct BulkTerm {
   LinearCells<Dim> linear;  ///< by job
   std::vector<BasicBulkBlock<Dim>> blocks;
   double seconds = 0;
+  Eigen::VectorXd* diagonal =
+      nullptr;  ///< gets those of tangents added, in size; none: nobody asks
 
   BulkTerm(const BasicModel<Dim>& m, int thread_count);
   /// The places of all cells in the matrix.

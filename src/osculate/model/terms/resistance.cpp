@@ -21,16 +21,9 @@ double size_of(const BasicModel<Dim>& model) {
   return low.x() <= high.x() ? (high - low).norm() : 1.0;
 }
 
-}  // namespace
-
-/// Also what the rounding of coordinates does to internal forces: |diag K| times that.
-///
-/// Rigid bodies have no stiffness of their own: they get the mean of the others', their rotations
-/// with the square of a length.
 template <int Dim>
-void Resistance<Dim>::measure(BulkTerm<Dim>& bulk, const BasicDofSpace<Dim>& dofs) {
+Eigen::VectorXd diagonal_at_rest(BulkTerm<Dim>& bulk, const BasicDofSpace<Dim>& dofs) {
   const BasicModel<Dim>& model = bulk.model;
-  extent = size_of(model);
   const Eigen::VectorXd rest =
       Eigen::VectorXd::Zero(Dim * static_cast<Eigen::Index>(model.reference.size()));
   Eigen::VectorXd own = Eigen::VectorXd::Zero(dofs.dofs());
@@ -41,6 +34,21 @@ void Resistance<Dim>::measure(BulkTerm<Dim>& bulk, const BasicDofSpace<Dim>& dof
     for (int k = 0; block.ok && k < block.dof_count; ++k)
       own[block.dofs[static_cast<std::size_t>(k)]] += std::abs(block.result.tangent(k, k));
   }
+  return own;
+}
+
+}  // namespace
+
+/// Also what the rounding of coordinates does to internal forces: |diag K| times that.
+///
+/// Rigid bodies have no stiffness of their own: they get the mean of the others', their rotations
+/// with the square of a length.
+template <int Dim>
+void Resistance<Dim>::measure(BulkTerm<Dim>& bulk, const BasicDofSpace<Dim>& dofs,
+                              Eigen::VectorXd own) {
+  const BasicModel<Dim>& model = bulk.model;
+  extent = size_of(model);
+  if (own.size() == 0) own = diagonal_at_rest(bulk, dofs);
   double sum = 0;
   int count = 0;
   for (Eigen::Index d = 0; d < own.size(); ++d)

@@ -14,7 +14,9 @@ struct Resistance {
   double round_off = 0;      ///< of internal forces, from that of the coordinates
   double extent = 0;         ///< of all cells
 
-  void measure(BulkTerm<Dim>& bulk, const BasicDofSpace<Dim>& dofs);
+  /// `own`: the sizes of the cells' diagonals at rest, one per dof, where they are known; else
+  /// empty.
+  void measure(BulkTerm<Dim>& bulk, const BasicDofSpace<Dim>& dofs, Eigen::VectorXd own = {});
   void add(double part, const BasicAssembler<Dim>& assembler, la::MatrixBuilder& builder) const;
 };
 
