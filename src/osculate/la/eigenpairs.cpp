@@ -303,6 +303,7 @@ Eigenpairs smallest_scaled(Sparse k, Sparse m, int count, LinearSolver& solver) 
   m *= unit;
   // Masses of nodes are the same in all directions: the pattern has three times as many places.
   m.prune([](Eigen::Index, Eigen::Index, double value) { return value != 0; });
+  k = Sparse(k + 0 * m);  // has all places of M
   Eigenpairs pairs = smallest_of({std::move(k), std::move(m), solver}, count);
   if (!pairs.failure.empty()) return pairs;
   pairs.values *= unit;

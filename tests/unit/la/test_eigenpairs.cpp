@@ -227,6 +227,27 @@ TEST(Eigenpairs, OfComplexCombinations) {
     EXPECT_NEAR(real.values[i], exact_real.eigenvalues()[i], 1e-10);
 }
 
+// Masses may join unknowns that no stiffness joins.
+TEST(Eigenpairs, OfSpringsOfTheirOwnThatMassesJoin) {
+  constexpr Index n = 60;
+  MatrixBuilder k(n), m(n);
+  Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(n, n), mass = Eigen::MatrixXd::Identity(n, n);
+  for (Index i = 0; i < n; ++i) {
+    stiffness(i, i) = 1 + 0.1 * i;
+    if (i + 2 < n) mass(i, i + 2) = mass(i + 2, i) = 0.3;
+  }
+  for (Index i = 0; i < n; ++i) {
+    k.add(i, i, stiffness(i, i));
+    for (Index j = 0; j < n; ++j)
+      if (mass(i, j) != 0) m.add(i, j, mass(i, j));
+  }
+  const auto solver = make_default_solver();
+  const Eigenpairs pairs = smallest_eigenpairs(k.finish(), m.finish(), 4, *solver);
+  ASSERT_EQ(pairs.failure, "");
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> all(stiffness, mass);
+  EXPECT_LT((pairs.values - all.eigenvalues().head(4)).norm(), 1e-10);
+}
+
 TEST(Eigenpairs, SayWhyThereAreNone) {
   MatrixBuilder k(3);
   add_chain(0, 3, true, k);
