@@ -245,6 +245,21 @@ Eigenpairs all_around(Problem& p, double shift, Eigen::Index count) {
   return pairs;
 }
 
+/// Whether it did not come to its end, or some that it found are no vibrations.
+bool are_none(const Eigenpairs& pairs) {
+  constexpr double no_vibration = 1e-3;
+  return !pairs.failure.empty() || !(pairs.residual <= no_vibration);
+}
+
+/// Around the shift; below 0 where the inverse of K, which is nearly singular, sees little else.
+Eigenpairs found_from(Problem& p, double& shift, Eigen::Index count) {
+  Eigenpairs pairs = found_around(p, shift, count);
+  if (shift != 0 || !(are_none(pairs) || pairs.without_stiffness() > 0)) return pairs;
+  shift = -p.small_shift();
+  if (p.factor(shift).status == SolveStatus::failed) return pairs;
+  return found_around(p, shift, count);
+}
+
 /// Of symmetric matrices whose values are of about 1.
 Eigenpairs smallest_of(Problem p, int count) {
   Eigenpairs none;
@@ -270,20 +285,28 @@ Eigenpairs smallest_of(Problem p, int count) {
   }
   if (all_of_them) return all_around(p, shift, wanted);
   constexpr int tries = 3;
-  constexpr double no_vibration = 1e-3;
+  constexpr double no_digit = 0.1;
+  const double first = shift;
   Eigenpairs pairs;
   // Of equal ones Lanczos' method finds one alone at first: with one more there is time for both.
   Eigen::Index more = std::min(wanted + 1, p.with_mass - 1);
   for (int i = 0; i < tries; ++i) {
-    pairs = found_around(p, shift, more);
-    // A matrix that is nearly singular: its inverse sees little else.
-    if (shift == 0 && (!pairs.failure.empty() || pairs.without_stiffness() > 0 ||
-                       !(pairs.residual <= no_vibration))) {
-      shift = -p.small_shift();
+    pairs = found_from(p, shift, more);
+    // Where masses act on fewer motions than unknowns it may be one too many.
+    if (i == 0 && more > wanted && are_none(pairs)) {
+      more = wanted;
+      shift = first;
       if (p.factor(shift).status == SolveStatus::failed) break;
-      pairs = found_around(p, shift, more);
+      pairs = found_from(p, shift, more);
     }
     if (!pairs.failure.empty()) return pairs;
+    if (!(pairs.residual <= no_digit)) {
+      pairs.failure = fmt::format(
+          "what was found is none (residual {:.0e}): the masses move in fewer ways than are asked "
+          "for",
+          pairs.residual);
+      return pairs;
+    }
     pairs.missing = count_missing(p, pairs, wanted);
     if (pairs.missing <= 0 || more + pairs.missing >= p.with_mass) break;
     more += pairs.missing;

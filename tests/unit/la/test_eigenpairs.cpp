@@ -248,6 +248,37 @@ TEST(Eigenpairs, OfSpringsOfTheirOwnThatMassesJoin) {
   EXPECT_LT((pairs.values - all.eigenvalues().head(4)).norm(), 1e-10);
 }
 
+// 24 masses, each on the mean of four unknowns: Lanczos' method wants more motions than there are.
+TEST(Eigenpairs, OfMassesOnMeansAreRightOrNone) {
+  constexpr Index n = 120, masses = 24, each = 4;
+  MatrixBuilder k(n), m(n);
+  add_chain(0, n, true, k);
+  Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(n, n);
+  for (Index g = 0; g < masses; ++g)
+    mass.block(each * g, each * g, each, each).setConstant(1.0 / (each * each));
+  for (Index i = 0; i < n; ++i)
+    for (Index j = 0; j < n; ++j)
+      if (mass(i, j) != 0) m.add(i, j, mass(i, j));
+  const SparseMatrix stiffness = k.finish(), of_masses = m.finish();
+  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(n, n);
+  for (Index i = 0; i < n; ++i)
+    for (Index e = stiffness.row_start[static_cast<std::size_t>(i)];
+         e < stiffness.row_start[static_cast<std::size_t>(i) + 1]; ++e)
+      dense(i, stiffness.column[static_cast<std::size_t>(e)]) =
+          stiffness.value[static_cast<std::size_t>(e)];
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> inverse(mass, dense);
+  int found = 0;
+  for (int count = 1; count < 12; ++count) {
+    const auto solver = make_default_solver();
+    const Eigenpairs pairs = smallest_eigenpairs(stiffness, of_masses, count, *solver);
+    if (!pairs.failure.empty()) continue;
+    ++found;
+    for (Eigen::Index i = 0; i < count; ++i)
+      EXPECT_NEAR(pairs.values[i] * inverse.eigenvalues()[n - 1 - i], 1, 1e-9) << count << ' ' << i;
+  }
+  EXPECT_GE(found, 4);
+}
+
 TEST(Eigenpairs, SayWhyThereAreNone) {
   MatrixBuilder k(3);
   add_chain(0, 3, true, k);
