@@ -2,6 +2,7 @@
 
 Faces are painted from the back to the front, so that neither a display nor a renderer is needed.
 """
+import importlib.util
 import io
 
 import numpy as np
@@ -102,7 +103,10 @@ def draw(parts, field=None, scale=1.0, file=None, ax=None):
 
 
 def png(parts):
-    """The picture as a notebook shows it."""
+    """The picture as a notebook shows it; None without matplotlib, and of bodies that would take seconds."""
+    most_cells = 50_000
+    if importlib.util.find_spec("matplotlib") is None or len(parts["bodies"].types) > most_cells:
+        return None
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
