@@ -8,9 +8,10 @@
 rows.txt has the decks, what they may differ by, and why. The decks are those of Debian's packages
 calculix-ccx-test and freecad-common (these begin with `freecad/`), and those of the folder own beside this file (`own/`), of what
 those do not have; ccx is that of calculix-ccx. Both read the same deck, but for its requests of
-output: at the end of each step the displacements of all nodes. What is compared is the state that
-either leaves at the end: the largest difference of a node's displacement over the largest displacement,
-likewise of its force (reaction and load), and the largest contact pressures; of decks that look for
+output: in each step the displacements of all nodes. Displacements are compared at all times that both wrote, the
+ends of steps among them: the largest difference of a node's displacement over the largest displacement of that
+time (or a hundredth of that of all times, where it is more). Of the state that either leaves at the end are
+compared forces (reaction and load) likewise, and the largest contact pressures; of decks that look for
 vibrations at their end the frequencies, of those that look for buckling loads the factors. Nodes of shells, beams, trusses and of
 plane elements beside others, which have no cell of the
 solids that those become, are compared by the tables of displacements (.dat), all others by the result files (.frd). Seconds are those of the processor, of both cores together.
@@ -154,18 +155,29 @@ def run(command, folder, limit, threads=1):
     return code, said, error, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
-def blocks_of_frd(path):
-    """The last results of every kind in a result file: by name, by node, the components."""
-    found, name = {}, None
+def results_of_frd(path):
+    """Of a result file, in order: (name, time or None of a vibration, by node the components)."""
+    name, time, of_mode = None, 0.0, False
     with open(path, errors="replace") as file:
         for line in file:
-            if line.startswith(" -4"):
+            if line.startswith("    1PSTEP"):
+                of_mode = False
+            elif line.startswith("    1PMODE"):
+                of_mode = True
+            elif line.startswith("  100C"):
+                time = None if of_mode else float(line[12:24])
+            elif line.startswith(" -4"):
                 name, block = line.split()[1], {}
             elif name and line.startswith(" -1"):
                 block[int(line[3:13])] = [float(line[k:k + 12]) for k in range(13, len(line.rstrip()) - 11, 12)]
             elif name and line.startswith(" -3"):
-                found[name], name = block, None
-    return found
+                yield name, time, block
+                name = None
+
+
+def blocks_of_frd(path):
+    """The last results of every kind in a result file: by name, by node, the components."""
+    return {name: block for name, _, block in results_of_frd(path)}
 
 
 def places_of_frd(path):
@@ -181,31 +193,55 @@ def places_of_frd(path):
     return found
 
 
-def of_the_same_nodes(ours, folder):
-    """What is ours, without nodes of the same number elsewhere: both programs add some to those of the deck."""
+def nodes_elsewhere(folder):
+    """Whose numbers both programs gave to nodes at other places: both add some to those of the deck."""
     files = [next(place.glob("*.frd"), None) for place in (folder / "ours", folder)]
     if None in files:
-        return ours
+        return set()
     here, there = map(places_of_frd, files)
     size = max((abs(c) for place in there.values() for c in place), default=0.0)
-    return {node: u for node, u in ours.items()
-            if not (node in here and node in there and math.dist(here[node], there[node]) > 1e-3 * size)}
+    return {node for node in here if node in there and math.dist(here[node], there[node]) > 1e-3 * size}
 
 
 def displacements(folder):
-    """By node: of the result file, and of the table of the nodes that the deck prints."""
+    """By time, by node: of the result file, and of the table of the nodes that the deck prints."""
     frd, dat = next(folder.glob("*.frd"), None), next(folder.glob("*.dat"), None)
-    found = blocks_of_frd(frd).get("DISP", {}) if frd else {}
-    inside, printed = False, {}
+    found = {time: block for name, time, block in results_of_frd(frd)
+             if name == "DISP" and time is not None} if frd else {}
+    inside, of_mode = None, False
     for line in open(dat, errors="replace") if dat else []:
         words = line.split()
-        if words[:1] == ["displacements"]:
-            inside, printed = PRINTED in words, {} if PRINTED in words else printed
+        if "N U M B E R" in line:
+            of_mode = True
+        elif words[:1] == ["displacements"]:
+            inside = at_time(found, float(words[-1])) if PRINTED in words and not of_mode else None
+            of_mode = False
         elif words and not words[0].isdigit():
-            inside = False
-        elif words and inside:
-            printed[int(words[0])] = [float(word) for word in words[1:4]]
-    return found | printed
+            inside = None
+        elif words and inside is not None:
+            inside[int(words[0])] = [float(word) for word in words[1:4]]
+    return found
+
+
+def at_time(states, time):
+    """What there is of a time, to the digits of a table; made where there is nothing yet."""
+    near = next((known for known in reversed(states) if abs(known - time) <= 1e-5 * max(abs(time), 1e-30)), time)
+    return states.setdefault(near, {})
+
+
+def difference_at_all_times(ours, theirs, without=frozenset()):
+    """(Largest difference, its time, number of nodes of the last time) of states of times that both have."""
+    largest = max((math.hypot(*u[:3]) for state in theirs.values() for u in state.values()), default=0.0)
+    worst, when, nodes = math.nan, math.nan, 0
+    for time, state in theirs.items():
+        here = {node: u for node, u in at_time(ours, time).items() if node not in without}
+        size, found, count = difference(here, state)
+        if count and not math.isnan(found):
+            found *= size / max(size, 0.01 * largest)
+            nodes = count
+            if not found <= worst:
+                worst, when = found, time
+    return worst, when, nodes
 
 
 def difference(ours, theirs):
@@ -306,8 +342,10 @@ def compare(row, options):
             return result | {"nodes": 0, "difference":
                              frequency_difference(vibrations, frequencies_of_dat(folder / "deck.dat"))}
         ours = blocks_of_frd(next((folder / "ours").glob("*.frd")))
-        moved = of_the_same_nodes(displacements(folder / "ours"), folder)
-        _, result["difference"], result["nodes"] = difference(moved, displacements(folder))
+        moved = displacements(folder)
+        result["difference"], result["time"], result["nodes"] = difference_at_all_times(
+            displacements(folder / "ours"), moved, nodes_elsewhere(folder))
+        result["end"] = max(moved, default=0.0)
         if "DISPI" in theirs:  # the imaginary parts of what swings
             _, imaginary, _ = difference(ours["DISPI"], theirs["DISPI"])
             result["difference"] = max(result["difference"], imaginary)
@@ -324,6 +362,8 @@ def percent(value):
 
 def line_of(row, result):
     reason = row.reason.replace("|", "/")
+    if result.get("difference", 0) > row.tolerance and result.get("time", math.nan) < result["end"]:
+        reason = f"(at {result['time']:.4g} of {result['end']:.4g}) {reason}"
     name = row.deck.removeprefix(collection_of(row.deck).prefix)
     if "wrong" in result:
         return f"| {name} | | | | | | | {(reason + ' ' + result['wrong']).strip()} |"

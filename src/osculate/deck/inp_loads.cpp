@@ -32,9 +32,10 @@ struct LoadLine {
 };
 
 /// The set that a GRAV on a part of the bodies acts on. CalculiX replaces that of the same set and
-/// direction and adds others: these have sets of their own, of the same nodes or elements.
+/// direction and adds others: these have sets of their own, of the same nodes or elements, and so
+/// have the weights of masses (`beside`: forces of *CLOAD) unless they are rigid bodies.
 std::string gravity_set(const InpReading& r, const LoadLine& load, const std::string& part,
-                        const InpGravity& now) {
+                        const InpGravity& now, bool beside) {
   std::vector<InpGravity>& all = r.acting.gravity[part];
   const auto same = [&](const InpGravity& one) {
     return one.set == now.set && one.direction == now.direction;
@@ -42,8 +43,9 @@ std::string gravity_set(const InpReading& r, const LoadLine& load, const std::st
   const auto known = std::ranges::find_if(all, same);
   const auto number = known - all.begin();
   if (known == all.end()) all.push_back(now);
-  if (number == 0) return part;
-  if (!r.m.mesh.mesh.find_set(part) && !find(r.m.new_sets, part))
+  const bool is_body = !r.m.mesh.mesh.find_set(part) && !find(r.m.new_sets, part);
+  if (number == 0 && (is_body || !beside)) return part;
+  if (is_body)
     load.fields.fail(
         fmt::format("'{}' is a rigid body: GRAV of several sets or directions on its masses is not "
                     "supported",
@@ -71,7 +73,7 @@ void weigh(const InpReading& r, const InpMass& mass, const Vec3& acceleration,
     for (const InpPlace& place : inp_places(m, mass.node, k + 1))
       if (weight[k] != 0)
         set_condition(m, r.acting.parts[0].weights,
-                      {gravity_set(r, load, place.on, now), place.direction},
+                      {gravity_set(r, load, place.on, now, true), place.direction},
                       place.sign * weight[k], load.said, load.line, true);
 }
 
@@ -94,7 +96,7 @@ void read_gravity(const InpReading& r, const LoadLine& load, Conditions& body_fo
   for (const InpDensity& part : parts) {
     if (!(part.density > 0))
       fields.fail(fmt::format("the material of {} has no *DENSITY", io::inp::shown(part.on)));
-    const std::string acts_on = gravity_set(r, load, part.on, {on, direction});
+    const std::string acts_on = gravity_set(r, load, part.on, {on, direction}, false);
     for (int k = 0; k < inp_dimension(r.m); ++k)
       if (direction[k] != 0)
         set_condition(r.m, body_forces, {acts_on, k + 1}, part.density * size * direction[k],
@@ -271,14 +273,19 @@ void read_on_surfaces(const InpReading& r, const Card& card) {
 
 }  // namespace
 
-Conditions with_weights(const InpModel& m, const InpConditions& part) {
+Conditions with_weights(const InpWriting& w, const InpConditions& part) {
   Conditions all = part.forces;
+  // An amplitude over the time of a step before has come to its end.
+  const auto has_ended = [&](const Condition& value) {
+    return !value.fresh && !value.amplitude.empty() && !w.tables.at(value.amplitude).of_total_time;
+  };
   for (const auto& [place, weight] : part.weights) {
     const auto [found, is_new] = all.try_emplace(place, weight);
     if (is_new) continue;
     Condition& force = found->second;
-    if (force.size != 0 && weight.size != 0 && force.amplitude != weight.amplitude)
-      throw core::InputError({m.deck.files[0], 0, ""},
+    if (force.size != 0 && weight.size != 0 &&
+        (force.amplitude != weight.amplitude || has_ended(force) != has_ended(weight)))
+      throw core::InputError({w.m.deck.files[0], 0, ""},
                              fmt::format("'{}' has GRAV on a mass (line {}) and a force of *CLOAD "
                                          "with another amplitude, which is not supported",
                                          place.first, weight.line));

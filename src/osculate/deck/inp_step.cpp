@@ -135,7 +135,7 @@ void put_loads(const InpWriting& w, InpActing& acting, bool imaginary) {
   const auto force = [](SourceNode& entry, int direction, const Condition& value) {
     put(entry, inp_component('f', direction), inp_number(value.size, value.line));
   };
-  Conditions forces = with_weights(w.m, part);
+  Conditions forces = with_weights(w, part);
   std::erase_if(forces, [&](const auto& one) {  // a force that ends where a displacement begins
     const auto held = part.prescribed.find(one.first);
     return one.second.released && held != part.prescribed.end() && !held->second.released;

@@ -152,8 +152,6 @@ void set_condition(const InpModel& m, Conditions& values, const std::pair<std::s
 /// A load on a set, or on its parts.
 void add_load(const InpReading& r, Conditions& values, const std::pair<std::string, int>& place,
               double size, const InpSaid& said, const io::inp::Line& line);
-/// Forces at nodes, those of `*CLOAD` and weights of masses: there are both where both act.
-[[nodiscard]] Conditions with_weights(const InpModel& m, const InpConditions& part);
 /// Real or imaginary ones.
 [[nodiscard]] InpConditions& part_of(const InpReading& r, const io::inp::Card& card);
 /// What a step has said is what the next ones find.
@@ -204,6 +202,9 @@ struct InpWriting {
   double total_time = 0;   ///< before it
   bool at_once = false;    ///< loads without amplitude are no ramps
 };
+/// Forces at nodes and rigid bodies, those of `*CLOAD` and weights of masses: the sum where both
+/// act.
+[[nodiscard]] Conditions with_weights(const InpWriting& w, const InpConditions& part);
 /// Steps in time with loads that act at once where they name no amplitude.
 [[nodiscard]] bool is_at_once(const io::inp::Card& step, const InpProcedure& procedure);
 /// Adds the displacements that are prescribed; `sudden`: they act at once, as loads do.

@@ -190,6 +190,24 @@ TEST(InpLoadParts, WeightsOfMassesBesideForcesOfTheirNode) {
     EXPECT_LT((run.reaction_of("BASE", s) - sums[s]).norm(), 1e-9) << s;
 }
 
+/// A rigid body takes their sum: one that has come to its end has no common amplitude with a new
+/// one.
+TEST(InpLoadParts, WeightsOfMassesOfRigidBodiesBesideForces) {
+  const std::string body =
+      mass + "*RIGID BODY, ELSET=EB, REF NODE=7\n*AMPLITUDE, NAME=R\n0, 0, 1, 1\n";
+  const std::string weight = "*DLOAD, AMPLITUDE=R\nEM, GRAV, 10., 0, 0, -2.\n";
+  const std::string force = "*CLOAD, AMPLITUDE=R\n7, 3, 3.\n";
+  const std::string sum =
+      to_yaml(translate_deck(two_cubes(body + a_step(weight + force)), "a.inp").root);
+  EXPECT_THAT(sum, HasSubstr("{on: body_of_node_7, fz: -37, amplitude: R_1}"));
+  try {
+    (void)translate_deck(two_cubes(body + a_step(weight) + a_step(force)), "a.inp");
+    FAIL() << "taken";
+  } catch (const core::InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("with another amplitude"));
+  }
+}
+
 /// Forces of the node are along its axes, its weight is not.
 TEST(InpLoadParts, WeightsOfMassesWithAxesOfTheirOwn) {
   for (const char* const axes : {"TYPE=C\n0, 0, 0, 0, 0, 1\n", "TYPE=R\n1, 1, 0, 0, 1, 0\n"}) {
