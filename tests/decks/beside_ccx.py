@@ -362,7 +362,7 @@ def percent(value):
 
 def line_of(row, result):
     reason = row.reason.replace("|", "/")
-    if result.get("difference", 0) > row.tolerance and result.get("time", math.nan) < result["end"]:
+    if result.get("difference", 0) > row.tolerance and result.get("time", math.nan) < result.get("end", math.nan):
         reason = f"(at {result['time']:.4g} of {result['end']:.4g}) {reason}"
     name = row.deck.removeprefix(collection_of(row.deck).prefix)
     if "wrong" in result:

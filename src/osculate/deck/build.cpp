@@ -210,7 +210,7 @@ std::vector<bool> joined_nodes(const Description& description, const mesh::Mesh&
   return joined;
 }
 
-/// Of the contacts that name two sets of nodes, of ties, and of springs that join nodes.
+/// Of the contacts that name two sets of nodes, of ties, of springs and equations that join nodes.
 std::vector<mesh::ContactSides> sides_of_contacts(const Description& description,
                                                   const mesh::Mesh& mesh) {
   std::vector<mesh::ContactSides> out;
@@ -224,9 +224,12 @@ std::vector<mesh::ContactSides> sides_of_contacts(const Description& description
   if (const std::vector<bool> joined = joined_nodes(description, mesh); !joined.empty())
     out.push_back({joined, joined});
   std::vector<std::string> first, others;
-  for (const Spring& spring : description.springs)
-    for (std::size_t k = 0; k < spring.terms.size(); ++k)
-      (k == 0 ? first : others).push_back(spring.terms[k].on.value);
+  const auto add_terms = [&](const std::vector<EquationTerm>& terms) {
+    for (std::size_t k = 0; k < terms.size(); ++k)
+      (k == 0 ? first : others).push_back(terms[k].on.value);
+  };
+  for (const Spring& spring : description.springs) add_terms(spring.terms);
+  for (const Equation& equation : description.equations) add_terms(equation.terms);
   if (!others.empty()) out.push_back({nodes_of(first, mesh), nodes_of(others, mesh)});
   for (const Pretension& pretension : description.pretension) {
     mesh::ContactSides& sides = out.emplace_back();

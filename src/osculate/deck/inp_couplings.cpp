@@ -45,7 +45,7 @@ bool says_nlgeom(const InpModel& m) {
 void put_mpcs(InpModel& m, const Card& card, SourceNode& root) {
   SourceNode* nodes = nullptr;
   bool known = false;
-  if (m.finite && io::inp::moves_far(m.deck, card) && !says_nlgeom(m))
+  if (io::inp::moves_far(m.deck, card) && !says_nlgeom(m) && !io::inp::has_finite_law(m.deck))
     m.notes.push_back(
         fmt::format("line {}: *MPC with PLANE, STRAIGHT or BEAM makes displacements and strains "
                     "those of NLGEOM, as in CalculiX; *STEP, NLGEOM=NO keeps strains small",

@@ -316,6 +316,27 @@ TEST(InpConstraints, ConditionsOfNodesBringFiniteStrains) {
   EXPECT_THAT(notes(""), ::testing::Contains(HasSubstr("makes displacements and strains those of "
                                                        "NLGEOM")));
   EXPECT_TRUE(notes(", NLGEOM").empty());
+  const std::string rubber = "*MATERIAL, NAME=R\n*HYPERELASTIC, NEO HOOKE\n10., 0.01\n";
+  EXPECT_TRUE(translate_deck(bar(2) + rubber + fixed + beam + step(pull), "a.inp").notes.empty());
+}
+
+/// Two bars, one behind the other, that share no node, with equations between them and without.
+TEST(InpConstraints, BodiesJoinedByEquationsHangTogether) {
+  const auto warnings = [](const std::string& equations) {
+    const std::string second =
+        "*NODE\n21, 1, 0, 0\n22, 1, 1, 0\n23, 1, 1, 1\n24, 1, 0, 1\n31, 2, 0, 0\n32, 2, 1, 0\n"
+        "33, 2, 1, 1\n34, 2, 0, 1\n*ELEMENT, TYPE=C3D8, ELSET=BAR\n"
+        "9, 21, 22, 23, 24, 31, 32, 33, 34\n*NSET, NSET=FAR\n31, 32, 33, 34\n";
+    const std::string move = "*BOUNDARY\nFAR, 1, 1, 0.1\nFAR, 2, 3, 0.\n";
+    return run_deck(bar(1) + second + equations + fixed + step(move)).built.warnings;
+  };
+  std::string equations = "*EQUATION\n";
+  for (int k = 1; k <= 4; ++k)
+    for (int i = 1; i <= 3; ++i)
+      equations += fmt::format("2\n{}, {}, 1., {}, {}, -1.\n", 20 + k, i, 10 + k, i);
+  const auto told = ::testing::Contains(HasSubstr("nodes of one body at the same place"));
+  EXPECT_THAT(warnings(equations), ::testing::Not(told));
+  EXPECT_THAT(warnings(""), told);
 }
 
 /// Pulled together by a force, then kept as it is while the bar is pulled: F = E A delta / L.

@@ -295,11 +295,17 @@ bool moves_far(const Deck& deck, const Card& mpc) {
   });
 }
 
+bool has_finite_law(const Deck& deck) {
+  return std::ranges::any_of(deck.cards, [](const Card& card) {
+    return card.keyword == "HYPERELASTIC" || card.keyword == "HYPERFOAM" ||
+           card.keyword == "DEFORMATIONPLASTICITY";
+  });
+}
+
 bool has_finite_step(const Deck& deck) {
+  if (has_finite_law(deck)) return true;
   bool far = false;
   for (const Card& card : deck.cards) {
-    for (const char* const law : {"HYPERELASTIC", "HYPERFOAM", "DEFORMATIONPLASTICITY"})
-      if (card.keyword == law) return true;
     far = far || moves_far(deck, card);
     if (card.keyword != "STEP") continue;
     if (find_parameter(card, "NLGEOM")) far = option(card, "NLGEOM") != "NO";

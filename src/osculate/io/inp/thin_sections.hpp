@@ -47,9 +47,11 @@ struct ThinCards {
 
 /// Whether a card is an `*MPC` with PLANE, STRAIGHT or BEAM.
 [[nodiscard]] bool moves_far(const Deck& deck, const Card& mpc);
-/// Whether a step has NLGEOM, or a material is hyperelastic: displacements and rotations are of any
-/// size. An `*MPC` that moves far gives the first step NLGEOM, as in CalculiX, unless it says
-/// NLGEOM=NO.
+/// Whether a material is one of any strain, such as a hyperelastic one.
+[[nodiscard]] bool has_finite_law(const Deck& deck);
+/// Whether a step has NLGEOM, or a material is one of any strain: displacements and rotations are
+/// of any size. An `*MPC` that moves far gives the first step NLGEOM, as in CalculiX, unless it
+/// says NLGEOM=NO.
 [[nodiscard]] bool has_finite_step(const Deck& deck);
 /// Whether a section card is one of a shell of layers.
 [[nodiscard]] bool is_layered(const Card& card);
