@@ -184,8 +184,9 @@ std::string AnswerFiles<Dim>::head() const {
 
 template <int Dim>
 double AnswerFiles<Dim>::duration_of(Index step) const {
-  const double duration = built_.model.steps[static_cast<std::size_t>(step)].duration;
-  return duration > 0 ? duration : 1;
+  const model::Step& one = built_.model.steps[static_cast<std::size_t>(step)];
+  if (one.frequencies || one.buckling || one.harmonic) return 0;  // as in CalculiX
+  return one.duration > 0 ? one.duration : 1;
 }
 
 template <int Dim>

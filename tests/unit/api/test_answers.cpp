@@ -322,6 +322,30 @@ TEST_F(Answers, EnergiesOfContactsAreThoseOfTheirSprings) {
   EXPECT_NEAR(rows(dat, " total contact spring energy for time")[0][0], energy, 1e-6 * energy);
 }
 
+/// Vibrations and buckling take no time: 2 and 3 are all there is, as in CalculiX.
+TEST_F(Answers, TimesAreThoseOfSteps) {
+  std::string text = column;
+  text.replace(text.find("*ELASTIC"), 8, "*DENSITY\n1.\n*ELASTIC");
+  const std::size_t at = text.find("*STEP");
+  std::string first = text.substr(at);
+  first.replace(first.find("1,1\n"), 4, "1,2\n");
+  std::string last = text.substr(at);
+  last.replace(last.find("1,1\n"), 4, "1.5,3\n");
+  RunOptions o;
+  o.model = (folder / "column.inp").string();
+  o.folder = (folder / "out").string();
+  std::ofstream(o.model) << text.substr(0, at) << first << "*STEP\n*FREQUENCY\n1\n*END STEP\n"
+                         << "*STEP\n*BUCKLE\n1\n*CLOAD, OP=NEW\nTOP,3,-1.\n*END STEP\n"
+                         << last;
+  ASSERT_EQ(run(o).status, RunStatus::done);
+  const std::string dat = read("column.dat"),
+                    title = " displacements (vx,vy,vz) for set HELD and time  ";
+  EXPECT_EQ(count(dat, title), 4U);
+  for (const char* const time :
+       {"0.1000000E+01", "0.2000000E+01", "0.3500000E+01", "0.5000000E+01"})
+    EXPECT_EQ(count(dat, title + time), 1U) << time;
+}
+
 TEST_F(Answers, ARestartWritesTheSameFiles) {
   RunOptions o = options("block", space);
   ASSERT_EQ(run(o).status, RunStatus::done);
