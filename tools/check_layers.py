@@ -21,7 +21,7 @@ from cpp_text import SOURCE_SUFFIXES, blanked, functions, line_of
 FUNCTION_WARN, FUNCTION_FAIL, FILE_FAIL = 60, 100, 500
 SIZED = ("src", "include", "app", "bindings", "verification", "tests", "benchmarks", "examples")
 PUBLIC_LAYER = "embed"
-INTERFACES = {"osculate/user_material.h": "material"}  # what the program calls: of one layer
+INTERFACES = {"osculate/user_material.h": "material", "osculate/user_law.h": "contact"}  # what the program calls: of one layer
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.M)
 
 

@@ -18,6 +18,9 @@ struct NamedLaw {
   std::string law;
   std::vector<std::pair<std::string, double>> numbers;
   std::vector<std::array<double, 2>> points{};  ///< of a law that is a table
+  // of a law whose formula is a function of the host's own (user_law.h)
+  std::vector<std::pair<std::string, std::string>> texts{};
+  std::vector<double> constants{};
 };
 
 // ---- pressure over the gap ---------------------------------------------------------------------

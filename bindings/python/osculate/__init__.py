@@ -2,6 +2,7 @@
 
 run, check, Result   analyses, as the program `osculate` has them
 study                an analysis over values of its parameters
+normal_law, friction_law, material   your own functions as laws
 Evaluator            contact for a code of one's own; closest_points: of millions of points
 """
 from ._contact import (ActiveSet, Closest, ClosestPoints, ClosestStatus, DerivativeCheck, Evaluation, Evaluator,
@@ -10,6 +11,7 @@ from ._core import (Arc, Circle, Cone, Cylinder, Line, NurbsCurve, NurbsSurface,
 from ._core import version as __version__
 from ._data import DataSet, Parts
 from ._errors import AnalysisFailed, InputError, Interrupted, Refused
+from ._laws import friction_law, material, normal_law
 from ._mesh import write_gmsh
 from ._run import Columns, Increment, Result, State, check, run
 from ._study import Table, study

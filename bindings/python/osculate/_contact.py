@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from . import _core
+from . import _core, _laws
 from ._core import ActiveSet, Evaluation, History, Multipliers  # noqa: F401
 
 
@@ -103,17 +103,22 @@ class Evaluator(_core.Evaluator):
         far           with a search distance: report gaps of points far away, too
         Arrays of doubles are read where they stand; those of the Evaluation show its memory.
         """
-        return super().evaluate(coordinates, committed, active_set, multipliers, tangent, duration, relief, far)
+        answer = super().evaluate(coordinates, committed, active_set, multipliers, tangent, duration, relief, far)
+        _laws.reraise()
+        return answer
 
     def predicted(self, committed, coordinates, guess="as_before"):
         """States for the first iteration of an increment; guess: as_before, sticking or sliding."""
-        return super().predicted(committed, coordinates, guess)
+        answer = super().predicted(committed, coordinates, guess)
+        _laws.reraise()
+        return answer
 
     def derivative_check(self, coordinates, committed, step, active_set=None, multipliers=None, *, duration=0.0):
         """Whether the tangent is the derivative of the forces: K d along a fixed random direction against central
         differences with `step` and half of it."""
-        return DerivativeCheck(
-            **super().derivative_check(coordinates, committed, step, active_set, multipliers, duration))
+        answer = super().derivative_check(coordinates, committed, step, active_set, multipliers, duration)
+        _laws.reraise()
+        return DerivativeCheck(**answer)
 
 
 def csr(entries, size):

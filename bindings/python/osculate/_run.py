@@ -12,7 +12,7 @@ import weakref
 
 import numpy as np
 
-from . import _core, _plot
+from . import _core, _laws, _plot
 from ._data import DataSet, Parts, read_collection, read_vtu
 from ._errors import AnalysisFailed, InputError, Interrupted
 from ._mesh import write_gmsh
@@ -383,6 +383,7 @@ def run(model, folder=None, *, mesh=None, base=None, parameters=None, until=None
             float(max_minutes), watch, say, main)
     if error is not None and not isinstance(error, KeyboardInterrupt):
         raise error
+    _laws.reraise()
     if json.loads(summary)["status"] == "checked":
         raise InputError(message)
     result = Result(target, _keep=keep)

@@ -2,6 +2,8 @@
 // layer that knows which laws there are.
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "osculate/contact/law/catalogue.hpp"
 #include "osculate/contact/law/every_law.hpp"
 #include "osculate/core/text.hpp"
@@ -22,7 +24,10 @@ std::vector<Key> law_keys() {
 
 template <class Laws, class T>
 GivenLaw<contact::Law<Laws>> given(const Value& v) {
-  GivenLaw<contact::Law<Laws>> out{params_of<T>(v), false, v.mark, std::nullopt, v.mark};
+  T law = params_of<T>(v);
+  if constexpr (requires { law.open(std::string()); })
+    require_none(law.open(std::filesystem::path(v.mark.file).parent_path().string()), v);
+  GivenLaw<contact::Law<Laws>> out{law, false, v.mark, std::nullopt, v.mark};
   for (const core::Param<T>& p : T::params()) {
     const Value* const value = value_of(v, p);
     if (!value) continue;

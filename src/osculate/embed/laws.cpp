@@ -16,28 +16,45 @@ template <class T>
 T with_numbers(const NamedLaw& given) {
   T law{};
   std::vector<std::string> known;
-  bool table = false;
+  bool table = false, list = false;
   for (const core::Param<T>& p : T::params()) {
     const std::string& key = known.emplace_back(p.key.empty() ? T::key : p.key);
     const auto found = std::find_if(given.numbers.begin(), given.numbers.end(),
                                     [&](const auto& number) { return number.first == key; });
     const bool of_points = core::table_in(law, p.slot) != nullptr;
     table = table || of_points;
+    const auto text =
+        std::ranges::find(given.texts, key, &std::pair<std::string, std::string>::first);
+    list = list || core::is_list(law, p.slot);
     if (of_points)
       core::set(law, p.slot, given.points);
+    else if (core::is_list(law, p.slot))
+      core::set(law, p.slot, given.constants);
+    else if (core::is_text(law, p.slot) && text != given.texts.end())
+      core::set(law, p.slot, text->second);
     else if (found != given.numbers.end())
       core::set(law, p.slot, found->second);
-    const bool missing = of_points ? given.points.empty() : found == given.numbers.end();
+    const bool missing = of_points                    ? given.points.empty()
+                         : core::is_text(law, p.slot) ? text == given.texts.end()
+                                                      : found == given.numbers.end();
     if (p.required && missing)
       throw Refused(
           fmt::format("{}: {} missing", given.law, of_points ? "points are" : key + " is"));
   }
-  for (const auto& [key, value] : given.numbers)
+  const auto check = [&](const std::string& key) {
     if (std::find(known.begin(), known.end(), key) == known.end())
       throw Refused(
           fmt::format("{}: {}", given.law, core::unknown_name_message("number", key, known)));
+  };
+  for (const auto& [key, value] : given.numbers) check(key);
+  for (const auto& [key, value] : given.texts) check(key);
   if (!given.points.empty() && !table)
     throw Refused(fmt::format("{}: it is no table, points mean nothing", given.law));
+  if (!given.constants.empty() && !list)
+    throw Refused(fmt::format("{}: it takes no constants", given.law));
+  if constexpr (requires { law.open(std::string()); })
+    if (const std::optional<core::Fault> fault = law.open(""))
+      throw Refused(fmt::format("{}: {}", given.law, fault->why));
   return law;
 }
 
@@ -58,6 +75,7 @@ std::vector<LawKey> keys_of_all() {
   std::vector<LawKey> keys;
   contact::for_each_law<Laws>([&]<class T>(const T& law) {
     for (const core::Param<T>& p : T::params()) {
+      if (core::is_text(law, p.slot) || core::is_list(law, p.slot)) continue;  // of C++ and Python
       const std::string number(p.key.empty() ? T::key : p.key);
       std::string path(T::key);
       if (p.one_of) path += fmt::format(".{}", p.one_of->key);

@@ -4,10 +4,9 @@
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
-#include <filesystem>
 #include <limits>
-#include <system_error>
 
+#include "osculate/core/shared_library.hpp"
 #include "osculate/material/radial_return.hpp"
 #include "osculate/material/stiffness.hpp"
 
@@ -181,18 +180,9 @@ std::optional<core::Fault> UserMaterial::fault() const {
 }
 
 std::optional<core::Fault> UserMaterial::open(const std::string& folder) {
-  const std::filesystem::path path = std::filesystem::path(folder.empty() ? "." : folder) / library;
-  std::error_code none;
-  if (!std::filesystem::exists(path, none))
-    return core::Fault{fmt::format("there is no file '{}'", path.string()), "library", {}};
-  FoundRoutine found = find_routine(path.string(), function);
-  if (!found.opened)
-    return core::Fault{fmt::format("cannot be loaded: {}", found.problem), "library", {}};
-  if (!found.function)
-    return core::Fault{fmt::format("the library has no function '{}': {}", function, found.problem),
-                       "function",
-                       {}};
-  return use(found.function, std::move(found.library));
+  core::FoundFunction found = core::find_function(folder, library, function);
+  if (!found.function) return core::Fault{found.problem, found.opened ? "function" : "library", {}};
+  return use(reinterpret_cast<osculate_user_material*>(found.function), std::move(found.library));
 }
 
 std::optional<core::Fault> UserMaterial::use(osculate_user_material* found,

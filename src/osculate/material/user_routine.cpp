@@ -1,6 +1,5 @@
 #include "osculate/material/user_routine.hpp"
 
-#include <dlfcn.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,11 +19,6 @@ constexpr double untouched = -6.02214076e-123;
 Vec<6> swapped(Vec<6> v) {
   std::swap(v[4], v[5]);
   return v;
-}
-
-std::string last_error() {
-  const char* const text = dlerror();
-  return text ? text : "unknown reason";
 }
 
 }  // namespace
@@ -106,24 +100,6 @@ bool UserRoutine::ask(UserPoint& p) const {  // long: the arguments of UMAT
   }
   if (p.next_state) std::copy_n(state_.begin(), count_, p.next_state);
   return true;
-}
-
-FoundRoutine find_routine(const std::string& path, const std::string& function) {
-  FoundRoutine found;
-  found.library = {dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL), [](void* library) {
-                     if (library) dlclose(library);
-                   }};
-  if (!found.library) {
-    found.problem = last_error();
-    return found;
-  }
-  found.opened = true;
-  void* const symbol = dlsym(found.library.get(), function.c_str());
-  if (symbol)
-    found.function = reinterpret_cast<osculate_user_material*>(symbol);
-  else
-    found.problem = last_error();
-  return found;
 }
 
 }  // namespace osculate::material

@@ -52,13 +52,4 @@ class UserRoutine {
   mutable std::string complaint_;
 };
 
-/// A function of a shared library. One of both: it, or what is wrong.
-struct FoundRoutine {
-  osculate_user_material* function = nullptr;
-  std::shared_ptr<void> library;
-  std::string problem;
-  bool opened = false;  ///< the library was: the name of the function is the problem
-};
-[[nodiscard]] FoundRoutine find_routine(const std::string& path, const std::string& function);
-
 }  // namespace osculate::material

@@ -13,16 +13,17 @@
 #include "osculate/contact/law/rate_and_state.hpp"
 #include "osculate/contact/law/rough.hpp"
 #include "osculate/contact/law/tresca.hpp"
+#include "osculate/contact/law/user_laws.hpp"
 #include "osculate/contact/law/viscous_friction.hpp"
 
 namespace osculate::contact {
 
 // The laws there are. The first normal law is that of pairs that name none.
 struct NormalLaws
-    : std::variant<NormalPenalty, NormalExponential, NormalTable, NormalDecaying, NormalTensile> {
+    : std::variant<NormalPenalty, NormalExponential, NormalTable, NormalDecaying, NormalTensile, UserNormal> {
   using variant::variant;
 };
-struct FrictionLaws : std::variant<Coulomb, Tresca, Rough, RateAndState, ViscousFriction> {
+struct FrictionLaws : std::variant<Coulomb, Tresca, Rough, RateAndState, ViscousFriction, UserFriction> {
   using variant::variant;
 };
 struct DampingLaws : std::variant<Viscous, Restitution> {
