@@ -77,7 +77,8 @@ void add_component(const BuildContext<Dim>& context, const Name& on, Component c
 void add_term(model::Equation& equation, model::Dof dof, double factor);
 
 /// When relations of the mesh begin: with the first step that prescribes or holds what they wait
-/// for; where equations cannot change, all with the first step, or with the next one.
+/// for; with cyclic symmetry, where equations do not change, all of them with the first one, in
+/// steps along vibrations none, but with the next step.
 template <int Dim>
 void find_relation_steps(BuildContext<Dim>& context);
 /// Equations of the mesh that hold in a step, of what takes part and is not prescribed by itself.

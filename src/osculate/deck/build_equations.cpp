@@ -33,35 +33,42 @@ Period period(const BuildContext<Dim>& c, std::size_t from) {
   return {from, std::min(until, steps.size())};
 }
 
-/// From the first step on until one brings or frees equations, with all relations that the mesh
-/// ever has: for ties, which are those of all steps.
-template <int Dim>
-Period period_of_ties(const BuildContext<Dim>& c) {
-  const std::vector<Step>& steps = c.description.steps;
-  const auto end = std::ranges::find_if(steps, changes_equations);
-  return {steps.empty() ? 0 : steps.size() - 1, static_cast<std::size_t>(end - steps.begin())};
+/// Ties are those of all steps, of the time before one brings or frees equations: that step.
+std::size_t end_for_ties(const std::vector<Step>& steps) {
+  return static_cast<std::size_t>(std::ranges::find_if(steps, changes_equations) - steps.begin());
 }
 
-/// What the steps before `until` prescribe. A dof that is not prescribed through all of them has no
-/// course.
+/// What is prescribed in a period, by it or by the steps before. A dof that is not prescribed
+/// through all of it has no course.
 template <int Dim>
-PrescribedCourses prescribed_courses(const BuildContext<Dim>& c, std::size_t until) {
+PrescribedCourses prescribed_courses(const BuildContext<Dim>& c, const Period& in) {
   PrescribedCourses courses;
   const std::vector<Step>& steps = c.description.steps;
-  for (std::size_t s = 0; s < until; ++s) {
-    for (auto& [dof, course] : courses)
-      if (!course.steps.empty()) course.steps.push_back({course.steps.back().value, {}});
-    for (const auto* const list : {&steps[s].release, &steps[s].hold})
-      for (const Release& r : *list)
-        for_each_displacement(
-            c, r, [&](const OneDisplacement& d, std::size_t) { courses[d.dof].steps.clear(); });
+  for (std::size_t s = 0; s < in.until; ++s) {
+    const bool begins = s <= in.from;  // no step of the period is over
+    for (auto& [dof, course] : courses) {
+      if (course.steps.empty()) continue;
+      const double value = course.steps.back().value;
+      if (begins) course.steps.clear();
+      course.steps.push_back({value, {}});
+    }
+    for (const Release& r : steps[s].release)
+      for_each_displacement(c, r, [&](const OneDisplacement& d, std::size_t) {
+        if (begins)
+          courses.erase(d.dof);
+        else
+          courses[d.dof].steps.clear();
+      });
+    for (const Release& r : steps[s].hold)
+      for_each_displacement(
+          c, r, [&](const OneDisplacement& d, std::size_t) { courses[d.dof].steps.clear(); });
     for (const Prescription& p : steps[s].prescribe)
       for (std::size_t i = 0; i < component_count; ++i) {
         if (!p.values[i]) continue;
         for (const OneDisplacement& d :
              displacements(c, p.on, static_cast<Component>(i), Idle::left_out)) {
           const auto [at, fresh] = courses.try_emplace(d.dof);
-          if (fresh && s == 0) at->second.steps.emplace_back();
+          if (fresh && begins) at->second.steps.emplace_back();
           if (!at->second.steps.empty())
             at->second.steps.back() = {d.sign * p.values[i]->value,
                                        p.amplitude ? p.amplitude->value : std::string{}};
@@ -171,7 +178,7 @@ std::vector<model::Equation> reduced(const BuildContext<Dim>& c,
 template <int Dim>
 void set_equations(BuildContext<Dim>& c, const std::vector<MarkedEquation>& all, const Period& in) {
   if (!all.empty() || !c.model().mesh.relations.empty()) {
-    PrescribedCourses courses = prescribed_courses(c, in.until);
+    PrescribedCourses courses = prescribed_courses(c, in);
     c.model().equations = reduced(c, all, in.from, courses);
   }
   add_local_axes(c);
@@ -183,11 +190,11 @@ std::vector<MarkedEquation> ties_beside(BuildContext<Dim>& c,
                                         const std::vector<MarkedEquation>& others) {
   std::vector<MarkedEquation> ties;
   if (c.description.ties.empty()) return ties;
-  const auto [from, until] = period_of_ties(c);
-  PrescribedCourses courses = prescribed_courses(c, until);
-  const PrescribedCourses at_first = prescribed_courses(c, std::min<std::size_t>(until, 1));
+  const std::size_t until = end_for_ties(c.description.steps);
+  PrescribedCourses courses = prescribed_courses(c, {0, until});
+  const PrescribedCourses at_first = prescribed_courses(c, {0, std::min<std::size_t>(until, 1)});
   std::set<Dof> given, led;
-  for (const model::Equation& equation : reduced(c, others, from, courses)) {
+  for (const model::Equation& equation : reduced(c, others, c.description.steps.size(), courses)) {
     const Dof lead = equation.terms.front().dof;
     given.insert(lead);
     if (std::all_of(equation.terms.begin() + 1, equation.terms.end(),

@@ -1,5 +1,6 @@
 // Relations of the mesh as equations of the model.
 #include <algorithm>
+#include <limits>
 #include <unordered_map>
 
 #include "osculate/deck/build_displacements.hpp"
@@ -55,13 +56,11 @@ void find_relation_steps(BuildContext<Dim>& c) {
   if (std::ranges::none_of(all, waits)) return;
   const std::unordered_map<model::Dof, std::size_t> first = first_supports(c);
   const std::vector<Step>& steps = c.description.steps;
-  const bool fixed =
-      !c.description.cyclic_symmetry.empty() || std::ranges::any_of(steps, [](const Step& step) {
-        return step.dynamics && step.dynamics->scheme == SchemeWord::central_differences;
-      });
+  const bool fixed = !c.description.cyclic_symmetry.empty();
+  constexpr std::size_t never = std::numeric_limits<std::size_t>::max();
   for (std::size_t r = 0; r < all.size(); ++r) {
     if (!waits(all[r])) continue;
-    std::size_t& from = c.relations_from[r] = steps.size();
+    std::size_t& from = c.relations_from[r] = never;
     const auto [node, direction] = all[r].from;
     for (int k = 0; k < Dim; ++k)
       if (const auto found = first.find(Dim * node + k);
