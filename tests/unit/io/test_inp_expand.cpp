@@ -11,7 +11,6 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
-#include <set>
 
 #include "osculate/cell/quadrature.hpp"
 #include "osculate/cell/volume_shape.hpp"
@@ -394,69 +393,6 @@ TEST(InpExpand, RotationsAreThoseOfARigidTurn) {
     }
     EXPECT_EQ(found, 3);
   }
-}
-
-/// Relations that begin with the step that holds a shell's node in their direction, or a rotation
-/// of a beam's node; all stretch and turn as the section does.
-TEST(InpExpand, HeldSectionsOfSecondOrderStayStraight) {
-  const std::string section =
-      "*BEAM SECTION, ELSET=E, MATERIAL=M, SECTION=RECT\n0.4, 0.2\n0, 1, 0\n*BOUNDARY\n1, 2, 3\n";
-  const DeckMesh pinned = read(line("B32", section)),
-                 clamped = read(line("B32", section + "1, 6\n")),
-                 shell = read(plate("S8", "*SHELL SECTION, ELSET=E, MATERIAL=M\n0.25\n"));
-  const auto waiting = [](const DeckMesh& deck) {
-    std::vector<mesh::Relation> out;
-    for (const mesh::Relation& relation : deck.mesh.relations)
-      if (relation.from.node >= 0) out.push_back(relation);
-    return out;
-  };
-  EXPECT_THAT(waiting(pinned), IsEmpty());
-  const Index turns = clamped.mesh.find_set("rotations of node 1")->nodes.at(0);
-  ASSERT_THAT(waiting(clamped), SizeIs(3 * 4));
-  for (const mesh::Relation& relation : waiting(clamped))
-    EXPECT_EQ(relation.from, (mesh::Relation::Support{turns, -1}));
-  ASSERT_THAT(waiting(shell), SizeIs(3 * 4));  // none at the middle of an edge
-  std::set<std::pair<Index, int>> held;
-  for (const mesh::Relation& relation : waiting(shell)) {
-    EXPECT_EQ(relation.from.direction, relation.terms[0].direction);
-    held.emplace(relation.from.node, relation.from.direction);
-  }
-  EXPECT_THAT(held, SizeIs(3 * 4));
-  EXPECT_EQ(held.rbegin()->first, 3);  // corners are the first four
-  for (const DeckMesh* const deck : {&clamped, &shell})
-    for (const mesh::Relation& relation : waiting(*deck)) {
-      ASSERT_THAT(relation.terms, SizeIs(3));
-      Vec3 sum = Vec3::Zero();
-      for (const mesh::Relation::Term& term : relation.terms)
-        sum += term.factor * deck->mesh.nodes[static_cast<std::size_t>(term.node)];
-      EXPECT_NEAR(sum.norm(), 0, 1e-12);
-    }
-}
-
-/// What conditions between nodes and supports along axes act on is the mean of bottom and top, and
-/// nothing holds the middle where axes are held.
-TEST(InpExpand, ConditionsActOnBottomAndTopOfShells) {
-  const std::string section = "*SHELL SECTION, ELSET=E, MATERIAL=M\n0.25\n";
-  const auto shares = [](const DeckMesh& deck, Index node) {
-    std::size_t terms = 0, waiting = 0;
-    for (const mesh::Relation& relation : deck.mesh.relations) {
-      if (relation.terms[0].node == node) terms = relation.terms.size();
-      waiting += relation.from.node == node ? 1 : 0;
-    }
-    return std::pair(terms, waiting);
-  };
-  const DeckMesh joined = read(plate(
-      "S8", section + "*EQUATION\n3\n1, 3, 1., 2, 3, -1.,\n8, 3, 2.\n2\n3, 1, 1., 7, 1, 1.\n"));
-  EXPECT_EQ(shares(joined, 0), std::pair(std::size_t{3}, std::size_t{3}));
-  EXPECT_EQ(shares(joined, 1), std::pair(std::size_t{3}, std::size_t{3}));
-  EXPECT_EQ(shares(joined, 2), std::pair(std::size_t{3}, std::size_t{3}));
-  EXPECT_EQ(shares(joined, 3), std::pair(std::size_t{4}, std::size_t{3}));
-  const DeckMesh turned =
-      read(plate("S8", section + "*NSET, NSET=T\n1, 2\n*TRANSFORM, NSET=T\n1, 1, 0, -1, 1, 0\n"
-                                 "*BOUNDARY\n1, 1\n3, 1\n"));
-  EXPECT_EQ(shares(turned, 0), std::pair(std::size_t{3}, std::size_t{0}));
-  EXPECT_EQ(shares(turned, 1), std::pair(std::size_t{4}, std::size_t{3}));
-  EXPECT_EQ(shares(turned, 2), std::pair(std::size_t{4}, std::size_t{3}));
 }
 
 TEST(InpExpand, NormalsOfTheDeck) {

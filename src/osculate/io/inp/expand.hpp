@@ -42,7 +42,7 @@ struct Expansion {
 /// Numbers    new nodes go on after the largest one of the deck; cells have those of the elements
 /// Source     CalculiX CrunchiX User's Manual, "Expansion of the one-dimensional and
 ///            two-dimensional elements"
-/// Tested by  tests/unit/io/test_inp_expand.cpp, tests/system/test_shells.cpp
+/// Tested by  tests/unit/io/test_inp_expand.cpp, test_inp_supports.cpp, tests/system/test_shells.py
 [[nodiscard]] Expansion expand(const Deck& deck, const ThinCards& cards, Numbering& numbering,
                                mesh::Mesh& mesh);
 
