@@ -167,6 +167,17 @@ std::string release_text(const deck::Release& r) {
   return text;
 }
 
+/// `1 ux -2 ux of b.right = 0.5`, behind the set of the first term.
+std::string equation_text(const deck::Equation& e) {
+  std::string text;
+  for (const deck::EquationTerm& term : e.terms) {
+    const char* const of = deck::component_names[static_cast<std::size_t>(term.of)];
+    text += text.empty() ? fmt::format("{:g} {}", term.factor.value, of)
+                         : fmt::format(" {:+g} {} of {}", term.factor.value, of, term.on.value);
+  }
+  return fmt::format("{} = {:g}{}", text, e.value.value, e.for_each_node ? ", of each node" : "");
+}
+
 template <int Dim>
 std::string on_text(const deck::BasicBuilt<Dim>& built, const std::string& on) {
   for (const model::BasicRigidBody<Dim>& body : built.model.rigid)
@@ -243,6 +254,11 @@ std::string step_text(const deck::Description& description, const deck::BasicBui
     text += line("  prescribe", p.on.value, prescription_text(p) + on_text(built, p.on.value));
   for (const deck::Release& r : given.release)
     text += line("  release", r.on.value, release_text(r) + on_text(built, r.on.value));
+  if (given.frees_all_equations) text += line("  free", "all", "equations");
+  for (const deck::Release& r : given.free_equations)
+    text += line("  free", r.on.value, "equations of " + release_text(r));
+  for (const deck::Equation& e : given.equations)
+    text += line("  equation", e.terms.front().on.value, equation_text(e));
   deck::Resultant sum;
   nlohmann::json loads = nlohmann::json::array();
   for (const deck::LoadTotal& load : built.loads[step]) {

@@ -187,8 +187,8 @@ std::vector<std::string> sets_without_cells(const Description& description,
     for (const EquationTerm& term : spring.terms) add(term.on);
   }
   for (const PointMass& one : description.masses) add(one.on);
-  for (const Equation& equation : description.equations)
-    for (const EquationTerm& term : equation.terms) add(term.on);
+  for (const Equation* const equation : description.all_equations())
+    for (const EquationTerm& term : equation->terms) add(term.on);
   for (const Pretension& pretension : description.pretension) add(pretension.name);
   for (const Rigid& rigid : description.rigid)
     if (const auto* const shape = std::get_if<SetShape>(&rigid.shape)) add(shape->set);

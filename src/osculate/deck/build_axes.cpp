@@ -46,8 +46,8 @@ void find_control_nodes(BuildContext<Dim>& c) {
     const std::vector<Index>& nodes = c.set(on).nodes;
     if (nodes.size() == 1 && !c.takes_part(nodes[0])) c.control_nodes.insert(nodes[0]);
   };
-  for (const Equation& equation : c.description.equations)
-    for (const EquationTerm& term : equation.terms) by_itself(term.on);
+  for (const Equation* const equation : c.description.all_equations())
+    for (const EquationTerm& term : equation->terms) by_itself(term.on);
   for (const Spring& spring : c.description.springs) {
     for (const Name& on : spring.between) by_itself(on);
     for (const EquationTerm& term : spring.terms) by_itself(term.on);

@@ -163,7 +163,7 @@ void refuse_bare_slaves(const BuildContext<Dim>& c, const Step& step) {
 
 bool changes_bodies(const Step& step) {
   return !step.remove.empty() || !step.add.empty() || !step.materials.empty() ||
-         !step.free_equations.empty() || step.frees_all_equations;
+         !step.equations.empty() || !step.free_equations.empty() || step.frees_all_equations;
 }
 
 /// Vibrations that move are those of the bodies as they were; explicit steps take bodies once.
@@ -172,6 +172,7 @@ void require_possible(const Description& d, const Step& step) {
   const auto mark = !step.remove.empty()           ? step.remove.front().mark
                     : !step.add.empty()            ? step.add.front().mark
                     : !step.materials.empty()      ? step.materials.front().mark
+                    : !step.equations.empty()      ? step.equations.front().mark
                     : !step.free_equations.empty() ? step.free_equations.front().mark
                                                    : *step.frees_all_equations;
   if (step.modal || step.harmonic)
@@ -200,7 +201,7 @@ void build_body_changes(BuildContext<Dim>& c) {
     for (const CellChange& one : step.remove) take_away(c, one, removed, change);
     for (const CellChange& one : step.add) bring_back(c, one, removed, change);
     for (const MaterialChange& one : step.materials) change_material(c, one, change);
-    change.equations = equations_left(c, s);
+    change.equations = equations_from(c, s);
     c.removed_cells.push_back(removed);
     c.bare_nodes.push_back(bare_nodes_of(c.model(), removed));
     refuse_bare_slaves(c, step);
@@ -209,7 +210,8 @@ void build_body_changes(BuildContext<Dim>& c) {
           fmt::format("step '{}' takes all cells from {} nodes: they stay where they are, or move "
                       "as they are told, and forces on them have no effect",
                       step.name.value, c.bare_nodes.back().size()));
-    if (changes_bodies(step)) c.model().body_changes.push_back(std::move(change));
+    if (changes_bodies(step) || change.equations)
+      c.model().body_changes.push_back(std::move(change));
   }
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "osculate/deck/build.hpp"
+#include "osculate/deck/reduce_equations.hpp"
 #include "osculate/mesh/boundary.hpp"
 #include "osculate/mesh/surface.hpp"
 #include "osculate/model/enclosed_volume.hpp"
@@ -55,6 +56,9 @@ struct BuildContext {
   std::vector<bool> related{};  ///< displacements that relations of the mesh name; empty: none
   std::unordered_map<Index, NodeAxes<Dim>> axes{};  ///< of nodes that `axes` names
   std::set<Index> control_nodes{};                  ///< of no cell: unknowns that equations name
+  std::vector<std::size_t> relations_from{};  ///< by relation of the mesh: the step it begins with
+  std::set<std::size_t> relation_changes{};   ///< steps but the first with which some begin
+  std::vector<MarkedEquation> tied{};         ///< of `ties`
   /// By step: cells, by block and number, that are not there, and nodes that only those have.
   std::vector<std::set<std::pair<Index, Index>>> removed_cells{};
   std::vector<std::set<Index>> bare_nodes{};
@@ -153,10 +157,10 @@ void build_initial_state(BuildContext<Dim>& context);
 /// Tested by  tests/unit/deck/test_body_changes.cpp
 template <int Dim>
 void build_body_changes(BuildContext<Dim>& context);
-/// The equations of the model without those that the steps up to this one have freed; nothing where
-/// no equation is freed in the step itself.
+/// The equations of the model with those that the steps up to this one have brought, without those
+/// that they have freed; nothing where none begins or ends with the step itself.
 template <int Dim>
-[[nodiscard]] std::optional<std::vector<model::Equation>> equations_left(BuildContext<Dim>& context,
+[[nodiscard]] std::optional<std::vector<model::Equation>> equations_from(BuildContext<Dim>& context,
                                                                          std::size_t step);
 template <int Dim>
 void build_steps(BuildContext<Dim>& context);

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "osculate/deck/build_context.hpp"
-#include "osculate/deck/reduce_equations.hpp"
 
 namespace osculate::deck {
 
@@ -77,11 +76,16 @@ void add_component(const BuildContext<Dim>& context, const Name& on, Component c
 /// The same of a dof that is known already; what is named twice gets the sum of its factors.
 void add_term(model::Equation& equation, model::Dof dof, double factor);
 
-/// Equations of the mesh, of what takes part and is not prescribed by itself. What rigid bodies
-/// move joins what is prescribed.
+/// When relations of the mesh begin: with the first step that prescribes or holds what they wait
+/// for; with cyclic symmetry, where equations do not change, all of them with the first one, in
+/// steps along vibrations none, but with the next step.
+template <int Dim>
+void find_relation_steps(BuildContext<Dim>& context);
+/// Equations of the mesh that hold in a step, of what takes part and is not prescribed by itself.
+/// What rigid bodies move joins what is prescribed.
 template <int Dim>
 [[nodiscard]] std::vector<MarkedEquation> relations(const BuildContext<Dim>& context,
-                                                    PrescribedCourses& courses);
+                                                    std::size_t step, PrescribedCourses& courses);
 
 /// Equations of cyclic symmetry.
 ///

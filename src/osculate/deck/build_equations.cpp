@@ -12,34 +12,63 @@ namespace {
 
 using model::Dof;
 
-/// The first step from one on that frees equations; the number of steps: none does.
-std::size_t next_freeing(const std::vector<Step>& steps, std::size_t from) {
-  while (from < steps.size() && steps[from].free_equations.empty() &&
-         !steps[from].frees_all_equations)
-    ++from;
-  return from;
+/// Whether a step itself brings or frees equations.
+bool changes_equations(const Step& step) {
+  return !step.equations.empty() || !step.free_equations.empty() || step.frees_all_equations;
 }
 
-/// What the steps before `until` prescribe. A dof that is not prescribed through all of them has no
-/// course.
+/// Steps with the same equations: from one on, and until another one begins.
+struct Period {
+  std::size_t from, until;
+};
+
+/// From a step on until the next one with which equations begin or end.
 template <int Dim>
-PrescribedCourses prescribed_courses(const BuildContext<Dim>& c, std::size_t until) {
+Period period(const BuildContext<Dim>& c, std::size_t from) {
+  const std::vector<Step>& steps = c.description.steps;
+  std::size_t until = from + 1;
+  while (until < steps.size() && !changes_equations(steps[until]) &&
+         !c.relation_changes.contains(until))
+    ++until;
+  return {from, std::min(until, steps.size())};
+}
+
+/// Ties are those of all steps, of the time before one brings or frees equations: that step.
+std::size_t end_for_ties(const std::vector<Step>& steps) {
+  return static_cast<std::size_t>(std::ranges::find_if(steps, changes_equations) - steps.begin());
+}
+
+/// What is prescribed in a period, by it or by the steps before. A dof that is not prescribed
+/// through all of it has no course.
+template <int Dim>
+PrescribedCourses prescribed_courses(const BuildContext<Dim>& c, const Period& in) {
   PrescribedCourses courses;
   const std::vector<Step>& steps = c.description.steps;
-  for (std::size_t s = 0; s < until; ++s) {
-    for (auto& [dof, course] : courses)
-      if (!course.steps.empty()) course.steps.push_back({course.steps.back().value, {}});
-    for (const auto* const list : {&steps[s].release, &steps[s].hold})
-      for (const Release& r : *list)
-        for_each_displacement(
-            c, r, [&](const OneDisplacement& d, std::size_t) { courses[d.dof].steps.clear(); });
+  for (std::size_t s = 0; s < in.until; ++s) {
+    const bool begins = s <= in.from;  // no step of the period is over
+    for (auto& [dof, course] : courses) {
+      if (course.steps.empty()) continue;
+      const double value = course.steps.back().value;
+      if (begins) course.steps.clear();
+      course.steps.push_back({value, {}});
+    }
+    for (const Release& r : steps[s].release)
+      for_each_displacement(c, r, [&](const OneDisplacement& d, std::size_t) {
+        if (begins)
+          courses.erase(d.dof);
+        else
+          courses[d.dof].steps.clear();
+      });
+    for (const Release& r : steps[s].hold)
+      for_each_displacement(
+          c, r, [&](const OneDisplacement& d, std::size_t) { courses[d.dof].steps.clear(); });
     for (const Prescription& p : steps[s].prescribe)
       for (std::size_t i = 0; i < component_count; ++i) {
         if (!p.values[i]) continue;
         for (const OneDisplacement& d :
              displacements(c, p.on, static_cast<Component>(i), Idle::left_out)) {
           const auto [at, fresh] = courses.try_emplace(d.dof);
-          if (fresh && s == 0) at->second.steps.emplace_back();
+          if (fresh && begins) at->second.steps.emplace_back();
           if (!at->second.steps.empty())
             at->second.steps.back() = {d.sign * p.values[i]->value,
                                        p.amplitude ? p.amplitude->value : std::string{}};
@@ -135,23 +164,22 @@ void add_followers(const BuildContext<Dim>& c, std::vector<MarkedEquation>& all)
   }
 }
 
-/// These and what the mesh adds; the courses know of what that prescribes.
+/// These and what the mesh adds in a step; the courses know of what that prescribes.
 template <int Dim>
 std::vector<model::Equation> reduced(const BuildContext<Dim>& c,
-                                     const std::vector<MarkedEquation>& all,
+                                     const std::vector<MarkedEquation>& all, std::size_t step,
                                      PrescribedCourses& courses) {
-  std::vector<MarkedEquation> first = relations(c, courses);
+  std::vector<MarkedEquation> first = relations(c, step, courses);
   first.insert(first.end(), all.begin(), all.end());
   return reduced_equations(first, courses, Dim * static_cast<Dof>(c.model().reference.size()));
 }
 
-/// Of the model, before step `until`: these, what the mesh adds, and local axes.
+/// Of the model in a period: these, what the mesh adds, and local axes.
 template <int Dim>
-void set_equations(BuildContext<Dim>& c, const std::vector<MarkedEquation>& all,
-                   std::size_t until) {
+void set_equations(BuildContext<Dim>& c, const std::vector<MarkedEquation>& all, const Period& in) {
   if (!all.empty() || !c.model().mesh.relations.empty()) {
-    PrescribedCourses courses = prescribed_courses(c, until);
-    c.model().equations = reduced(c, all, courses);
+    PrescribedCourses courses = prescribed_courses(c, in);
+    c.model().equations = reduced(c, all, in.from, courses);
   }
   add_local_axes(c);
 }
@@ -159,14 +187,14 @@ void set_equations(BuildContext<Dim>& c, const std::vector<MarkedEquation>& all,
 /// Of the surfaces that are tied, beside other equations.
 template <int Dim>
 std::vector<MarkedEquation> ties_beside(BuildContext<Dim>& c,
-                                        const std::vector<MarkedEquation>& others,
-                                        std::size_t until) {
+                                        const std::vector<MarkedEquation>& others) {
   std::vector<MarkedEquation> ties;
   if (c.description.ties.empty()) return ties;
-  PrescribedCourses courses = prescribed_courses(c, until);
-  const PrescribedCourses at_first = prescribed_courses(c, std::min<std::size_t>(until, 1));
+  const std::size_t until = end_for_ties(c.description.steps);
+  PrescribedCourses courses = prescribed_courses(c, {0, until});
+  const PrescribedCourses at_first = prescribed_courses(c, {0, std::min<std::size_t>(until, 1)});
   std::set<Dof> given, led;
-  for (const model::Equation& equation : reduced(c, others, courses)) {
+  for (const model::Equation& equation : reduced(c, others, c.description.steps.size(), courses)) {
     const Dof lead = equation.terms.front().dof;
     given.insert(lead);
     if (std::all_of(equation.terms.begin() + 1, equation.terms.end(),
@@ -225,11 +253,10 @@ void add_of_each_node(const BuildContext<Dim>& c, const deck::Equation& e,
   }
 }
 
-/// Those of the model file.
 template <int Dim>
-std::vector<MarkedEquation> given_equations(const BuildContext<Dim>& c) {
-  std::vector<MarkedEquation> all;
-  for (const deck::Equation& e : c.description.equations) {
+void add_given(const BuildContext<Dim>& c, const std::vector<deck::Equation>& given,
+               std::vector<MarkedEquation>& all) {
+  for (const deck::Equation& e : given) {
     if (e.for_each_node) {
       add_of_each_node(c, e, all);
       continue;
@@ -240,6 +267,13 @@ std::vector<MarkedEquation> given_equations(const BuildContext<Dim>& c) {
       add_component(c, term.on, term.of, term.factor.value, equation);
     all.push_back({std::move(equation), e.mark, false});
   }
+}
+
+/// Those of the model file before its first step.
+template <int Dim>
+std::vector<MarkedEquation> given_equations(const BuildContext<Dim>& c) {
+  std::vector<MarkedEquation> all;
+  add_given(c, c.description.equations, all);
   for (const Equal& equal : c.description.equal) {
     const std::vector<Index> nodes =
         moving_nodes(c, equal.on, Idle::refused, motion_of<Dim>(equal.of));
@@ -263,64 +297,72 @@ std::set<Dof> freed_by(const BuildContext<Dim>& c, const Step& step) {
   return freed;
 }
 
+/// Takes the equations away that a step frees.
+template <int Dim>
+void take_freed(const BuildContext<Dim>& c, const Step& step, std::vector<MarkedEquation>& all) {
+  if (step.frees_all_equations) all.clear();
+  if (step.free_equations.empty()) return;
+  const std::set<Dof> freed = freed_by(c, step);
+  const std::size_t count = std::erase_if(all, [&](const MarkedEquation& e) {
+    return !e.equation.terms.empty() && freed.contains(e.equation.terms.front().dof);
+  });
+  if (count == 0)
+    throw core::InputError(step.free_equations.front().mark,
+                           fmt::format("no equation gives this displacement of '{}'",
+                                       step.free_equations.front().on.value));
+}
+
 }  // namespace
 
 template <int Dim>
 void build_equations(BuildContext<Dim>& c) {
+  find_relation_steps(c);
   std::vector<MarkedEquation> all = given_equations(c);
   add_pretensions(c, all);
   add_followers(c, all);
-  const std::size_t until = next_freeing(c.description.steps, 0);
   std::vector<MarkedEquation> beside = all;
   if (!c.description.cyclic_symmetry.empty()) add_cyclic_symmetry(c, beside);
-  const std::vector<MarkedEquation> ties = ties_beside(c, beside, until);
-  if (std::ranges::any_of(c.description.steps,
-                          [](const Step& step) { return !step.diameters.empty(); })) {
-    append(ties, all);
-    set_equations(c, all, until);
+  c.tied = ties_beside(c, beside);
+  const std::vector<Step>& steps = c.description.steps;
+  const Period first = steps.empty() || changes_equations(steps[0]) ? Period{0, 0} : period(c, 0);
+  if (std::ranges::any_of(steps, [](const Step& step) { return !step.diameters.empty(); })) {
+    append(c.tied, all);
+    set_equations(c, all, first);
     c.model().sector->others = std::move(c.model().equations);
     c.model().equations.clear();
   } else {
     c.model().sector.reset();
   }
-  append(ties, beside);
-  set_equations(c, beside, until);
+  append(c.tied, beside);
+  set_equations(c, beside, first);
 }
 
 template <int Dim>
-std::optional<std::vector<model::Equation>> equations_left(BuildContext<Dim>& c, std::size_t step) {
+std::optional<std::vector<model::Equation>> equations_from(BuildContext<Dim>& c, std::size_t step) {
   const std::vector<Step>& steps = c.description.steps;
-  if (steps[step].free_equations.empty() && !steps[step].frees_all_equations) return std::nullopt;
-  if (!c.description.ties.empty())
+  if (!changes_equations(steps[step]) && !c.relation_changes.contains(step)) return std::nullopt;
+  if (changes_equations(steps[step]) && !c.description.ties.empty())
     throw core::InputError(c.description.ties.front().slave.mark,
-                           fmt::format("equations that end (step '{}') are not supported beside "
-                                       "ties: whose displacements they give, ties would",
+                           fmt::format("equations that begin or end (step '{}') are not supported "
+                                       "beside ties: whose displacements they give, ties would",
                                        steps[step].name.value));
   std::vector<MarkedEquation> all = given_equations(c);
   for (std::size_t s = 0; s <= step; ++s) {
-    if (steps[s].frees_all_equations) all.clear();
-    const std::set<Dof> freed = freed_by(c, steps[s]);
-    const std::size_t before = all.size();
-    std::erase_if(all, [&](const MarkedEquation& e) {
-      return !e.equation.terms.empty() && freed.contains(e.equation.terms.front().dof);
-    });
-    if (s == step && !steps[s].free_equations.empty() && all.size() == before)
-      throw core::InputError(steps[s].free_equations.front().mark,
-                             fmt::format("no equation gives this displacement of '{}'",
-                                         steps[s].free_equations.front().on.value));
+    take_freed(c, steps[s], all);
+    add_given(c, steps[s].equations, all);
   }
   add_pretensions(c, all);
   add_followers(c, all);
-  const std::size_t until = next_freeing(steps, step + 1);
+  append(c.tied, all);
   std::vector<model::Equation> kept = std::move(c.model().equations);
   c.model().equations.clear();
-  set_equations(c, all, until);
+  set_equations(c, all, period(c, step));
   std::swap(kept, c.model().equations);
   return kept;
 }
 
-template std::optional<std::vector<model::Equation>> equations_left(BuildContext<2>&, std::size_t);
-template std::optional<std::vector<model::Equation>> equations_left(BuildContext<3>&, std::size_t);
+template std::optional<std::vector<model::Equation>> equations_from(BuildContext<2>&, std::size_t);
+template std::optional<std::vector<model::Equation>> equations_from(BuildContext<3>&, std::size_t);
 template void build_equations(BuildContext<2>&);
 template void build_equations(BuildContext<3>&);
 

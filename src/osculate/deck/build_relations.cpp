@@ -1,4 +1,8 @@
 // Relations of the mesh as equations of the model.
+#include <algorithm>
+#include <limits>
+#include <unordered_map>
+
 #include "osculate/deck/build_displacements.hpp"
 
 namespace osculate::deck {
@@ -24,13 +28,59 @@ std::vector<bool> related_nodes(const BuildContext<Dim>& c) {
   return live;
 }
 
+/// By displacement: the first step that prescribes or holds it.
+template <int Dim>
+std::unordered_map<model::Dof, std::size_t> first_supports(const BuildContext<Dim>& c) {
+  std::unordered_map<model::Dof, std::size_t> first;
+  const std::vector<Step>& steps = c.description.steps;
+  for (std::size_t s = 0; s < steps.size(); ++s) {
+    const auto add = [&](const OneDisplacement& d) { first.try_emplace(d.dof, s); };
+    for (const Release& held : steps[s].hold)
+      for_each_displacement(c, held, [&](const OneDisplacement& d, std::size_t) { add(d); });
+    for (const Prescription& p : steps[s].prescribe)
+      for (std::size_t i = 0; i < component_count; ++i)
+        if (p.values[i])
+          std::ranges::for_each(displacements(c, p.on, static_cast<Component>(i), Idle::left_out),
+                                add);
+  }
+  return first;
+}
+
 }  // namespace
 
 template <int Dim>
-std::vector<MarkedEquation> relations(const BuildContext<Dim>& c, PrescribedCourses& courses) {
+void find_relation_steps(BuildContext<Dim>& c) {
+  const std::vector<mesh::Relation>& all = c.model().mesh.relations;
+  const auto waits = [](const mesh::Relation& relation) { return relation.from.node >= 0; };
+  c.relations_from.assign(all.size(), 0);
+  if (std::ranges::none_of(all, waits)) return;
+  const std::unordered_map<model::Dof, std::size_t> first = first_supports(c);
+  const std::vector<Step>& steps = c.description.steps;
+  const bool fixed = !c.description.cyclic_symmetry.empty();
+  constexpr std::size_t never = std::numeric_limits<std::size_t>::max();
+  for (std::size_t r = 0; r < all.size(); ++r) {
+    if (!waits(all[r])) continue;
+    std::size_t& from = c.relations_from[r] = never;
+    const auto [node, direction] = all[r].from;
+    for (int k = 0; k < Dim; ++k)
+      if (const auto found = first.find(Dim * node + k);
+          found != first.end() && (direction < 0 || direction == k))
+        from = std::min(from, found->second);
+    while (from < steps.size() && (steps[from].modal || steps[from].harmonic)) ++from;
+    if (fixed && from < steps.size()) from = 0;
+    if (from > 0 && from < steps.size()) c.relation_changes.insert(from);
+  }
+}
+
+template <int Dim>
+std::vector<MarkedEquation> relations(const BuildContext<Dim>& c, std::size_t step,
+                                      PrescribedCourses& courses) {
   std::vector<MarkedEquation> all;
   const std::vector<bool> live = related_nodes(c);
-  for (const mesh::Relation& relation : c.model().mesh.relations) {
+  const std::vector<mesh::Relation>& given = c.model().mesh.relations;
+  for (std::size_t r = 0; r < given.size(); ++r) {
+    if (c.relations_from[r] > step) continue;
+    const mesh::Relation& relation = given[r];
     MarkedEquation one{{}, c.description.mesh.mark, true};
     bool idle = relation.terms.size() > 1;  // of cells without section
     bool in_space = true;
@@ -51,7 +101,11 @@ std::vector<MarkedEquation> relations(const BuildContext<Dim>& c, PrescribedCour
   return all;
 }
 
-template std::vector<MarkedEquation> relations(const BuildContext<2>&, PrescribedCourses&);
-template std::vector<MarkedEquation> relations(const BuildContext<3>&, PrescribedCourses&);
+template void find_relation_steps(BuildContext<2>&);
+template void find_relation_steps(BuildContext<3>&);
+template std::vector<MarkedEquation> relations(const BuildContext<2>&, std::size_t,
+                                               PrescribedCourses&);
+template std::vector<MarkedEquation> relations(const BuildContext<3>&, std::size_t,
+                                               PrescribedCourses&);
 
 }  // namespace osculate::deck

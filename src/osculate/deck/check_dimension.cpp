@@ -127,8 +127,8 @@ void check_dimension(const Description& d) {
   if (dim == 3) return;
   for (const Contact& contact : d.contact)
     if (contact.edges) throw only_in_space(contact.edges->mark, "edges");
-  for (const Equation& equation : d.equations)
-    for (const EquationTerm& term : equation.terms) refuse(term.of, term.on.mark);
+  for (const Equation* const equation : d.all_equations())
+    for (const EquationTerm& term : equation->terms) refuse(term.of, term.on.mark);
   for (const Spring& spring : d.springs)
     for (const EquationTerm& term : spring.terms) refuse(term.of, term.on.mark);
   for (const Equal& equal : d.equal) refuse(equal.of, equal.mark);

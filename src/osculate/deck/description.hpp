@@ -63,6 +63,8 @@ struct Description {
   std::vector<std::string> notes;  ///< what was decided for the user while reading
   bool check_only = false;         ///< a deck says that nothing is to be solved
 
+  /// Those of all steps included.
+  [[nodiscard]] std::vector<const Equation*> all_equations() const;
   [[nodiscard]] const Material* find_material(const std::string& name) const;
   [[nodiscard]] const Rigid* find_rigid(const std::string& name) const;
   [[nodiscard]] const Contact* find_contact(const std::string& name) const;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "osculate/deck/inp_steps.hpp"
 #include "osculate/io/inp/loaded_sets.hpp"
@@ -128,6 +129,11 @@ void go_back(const InpReading& r, int line) {
     back.emplace_back(
         find(one, "on")->text,
         said(number(one, "value"), {number(one, "gradient"), number(one, "gradient_1")}));
+  for (auto one = back.begin(); one != back.end();) {  // of one set the last one holds
+    const bool again = std::any_of(std::next(one), back.end(),
+                                   [&](const auto& other) { return other.first == one->first; });
+    one = again ? back.erase(one) : std::next(one);
+  }
   std::erase_if(temperatures, [](const auto& one) { return !one.second.fresh; });
   temperatures.insert(temperatures.begin(), back.begin(), back.end());
 }

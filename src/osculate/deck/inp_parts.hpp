@@ -278,7 +278,8 @@ struct InpMass {
   std::string node;
   double mass = 0;
 };
-/// The masses whose `*MASS` names the set, or all of them (`io::inp::every_element`).
+/// The masses whose `*MASS` names the set, or that are in it beside others, or all of them
+/// (`io::inp::every_element`).
 [[nodiscard]] std::vector<InpMass> inp_masses(const InpModel& m, std::string_view elements);
 /// Of a `*TIE`: it is one of the two faces of a sector.
 [[nodiscard]] bool is_cyclic_tie(const io::inp::Card& card);

@@ -16,6 +16,7 @@ using io::inp::SetKind;
 
 /// An element that is no cell: the sets of its nodes.
 struct Discrete {
+  std::int32_t number = 0;
   std::string type;
   std::vector<std::string> nodes;
 };
@@ -30,8 +31,8 @@ std::vector<Discrete> elements_with(const InpModel& m, const Card& property) {
     for (const Line& line : io::inp::lines_of(m.deck, card)) {
       if (count == 0) break;
       Fields fields(m.deck, line);
-      (void)fields.number("the number of an element");
-      Discrete& one = found.emplace_back(Discrete{option_of(card, "TYPE"), {}});
+      const std::int32_t number = fields.number("the number of an element");
+      Discrete& one = found.emplace_back(Discrete{number, option_of(card, "TYPE"), {}});
       for (int k = 0; k < count; ++k)
         one.nodes.push_back(node_set_of(m, line, fields.next().value_or("")));
       fields.expect_end();
@@ -228,14 +229,16 @@ bool has_properties(const InpModel& m, const Card& element) {
 
 std::vector<InpMass> inp_masses(const InpModel& m, std::string_view elements) {
   const std::string key = io::inp::capitals(elements);
+  const auto others = m.mesh.discrete.find(key);
   std::vector<InpMass> masses;
   for (const Card& card : m.deck.cards) {
-    if (card.keyword != "MASS" ||
-        (elements != io::inp::every_element && option_of(card, "ELSET") != key))
-      continue;
+    if (card.keyword != "MASS") continue;
+    const bool all = elements == io::inp::every_element || option_of(card, "ELSET") == key;
+    if (!all && others == m.mesh.discrete.end()) continue;
     const double mass = Fields(m.deck, only_line(m, card, "the mass")).real("the mass");
     for (const Discrete& element : elements_with(m, card))
-      masses.push_back({element.nodes[0], mass});
+      if (all || others->second.contains(element.number))
+        masses.push_back({element.nodes[0], mass});
   }
   return masses;
 }

@@ -21,6 +21,8 @@ namespace osculate::deck {
 [[nodiscard]] BoundKey<Description> amplitudes_key();
 [[nodiscard]] BoundKey<Description> axes_key();
 [[nodiscard]] BoundKey<Description> equations_key();
+/// Equations that begin with a step.
+[[nodiscard]] BoundKey<Step> begun_equations_key();
 [[nodiscard]] BoundKey<Description> equal_key();
 /// One term of an equation, and of the elongation of a spring.
 [[nodiscard]] BoundKeys<EquationTerm> term_keys();

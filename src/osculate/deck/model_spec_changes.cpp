@@ -123,7 +123,8 @@ std::vector<BoundKey<Description>> initial_state_keys() {
 }
 
 std::vector<BoundKey<Step>> body_change_keys() {
-  return {remove_key(), add_key(), materials_change_key(), free_equations_key()};
+  return {remove_key(), add_key(), materials_change_key(), begun_equations_key(),
+          free_equations_key()};
 }
 
 }  // namespace osculate::deck

@@ -12,7 +12,8 @@ BoundKeys<Equation> equation_keys() {
                  list("Terms that are summed up.", term.spec("One term of an equation.")).count(1)),
         [term](E& e, const Value& v) { e.terms = term.read_all(v); }},
        may(&E::value, "value",
-           number("Value of the sum, reached at the end of the first step.")
+           number("Value of the sum, reached at the end of the first step; of an equation that a "
+                  "step brings at once.")
                .in("length")
                .otherwise("0")
                .such_as("0.1")),
@@ -217,6 +218,17 @@ BoundKey<Description> equations_key() {
                   .otherwise("[]")
                   .such_as("[{terms: [{on: A, of: ux, factor: 1}, {on: B, of: ux, factor: -1}]}]")),
           [](Description& d, const Value& v) { d.equations = equation_keys().read_all(v); }};
+}
+
+BoundKey<Step> begun_equations_key() {
+  return {optional("equations",
+                   list("Linear equations that hold from this step on, of the displacements in "
+                        "all: what is apart by then closes at once, in its first increment.",
+                        equation_keys().spec("One equation: the terms sum up to the value."))
+                       .otherwise("[]")
+                       .such_as("[{terms: [{on: A, of: ux, factor: 1}, {on: B, of: ux, factor: "
+                                "-1}], for_each_node: true}]")),
+          [](Step& s, const Value& v) { s.equations = equation_keys().read_all(v); }};
 }
 
 BoundKey<Description> equal_key() {

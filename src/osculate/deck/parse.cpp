@@ -67,6 +67,13 @@ const core::SourceMark& Material::mark(std::string_view parameter) const {
   return law.mark;
 }
 
+std::vector<const Equation*> Description::all_equations() const {
+  std::vector<const Equation*> all;
+  for (const Equation& one : equations) all.push_back(&one);
+  for (const Step& step : steps)
+    for (const Equation& one : step.equations) all.push_back(&one);
+  return all;
+}
 const Material* Description::find_material(const std::string& name) const {
   return find_named(materials, name);
 }

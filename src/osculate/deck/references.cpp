@@ -62,8 +62,8 @@ void require_rigid(const Description& d, const Name& on, const core::SourceMark&
 }
 
 void check_constraints(const Description& d) {
-  for (const Equation& equation : d.equations)
-    for (const EquationTerm& term : equation.terms)
+  for (const Equation* const equation : d.all_equations())
+    for (const EquationTerm& term : equation->terms)
       if (is_rotation(term.of))
         require_rigid(d, term.on, term.on.mark, component_names[static_cast<std::size_t>(term.of)]);
   for (const Spring& spring : d.springs)

@@ -81,7 +81,8 @@ constexpr std::array<Synonym, 44> synonyms{{
     {"initial-stress residual-stress prestress eigenstrain",
      "initial_stress, initial_strain (docs/materials.md)"},
     {"birth-death element-death excavation model-change deactivate",
-     "steps.remove, steps.add, steps.materials, steps.free_equations (docs/materials.md)"},
+     "steps.remove, steps.add, steps.materials, steps.equations, steps.free_equations "
+     "(docs/materials.md)"},
     {"restart checkpoint resume", "`osculate run --restart`, output.checkpoint"},
 }};
 

@@ -119,6 +119,7 @@ struct Step {
   std::vector<ContactChange> contact;
   std::vector<CellChange> remove, add;
   std::vector<MaterialChange> materials;
+  std::vector<Equation> equations;                      ///< that begin
   std::vector<Release> free_equations;                  ///< that give these displacements, or
   std::optional<core::SourceMark> frees_all_equations;  ///< all of them
   std::optional<Marked<int>> modes;                     ///< vibrations instead of increments

@@ -95,7 +95,7 @@ bool same_mesh(const mesh::Mesh& a, const mesh::Mesh& b) {
                                      s.second->connectivity == t.second->connectivity;
                             }) &&
          std::ranges::equal(a.relations, b.relations, [&](const auto& s, const auto& t) {
-           return std::ranges::equal(s.terms, t.terms, same_term);
+           return s.from == t.from && std::ranges::equal(s.terms, t.terms, same_term);
          });
 }
 

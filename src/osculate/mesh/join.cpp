@@ -78,6 +78,7 @@ void append_mesh(Mesh& mesh, const Mesh& part, const std::string& name,
     mesh.expanded.push_back({first + one.node, first + one.of, one.height, one.follows});
   for (Relation relation : part.relations) {
     for (Relation::Term& term : relation.terms) term.node += first;
+    if (relation.from.node >= 0) relation.from.node += first;
     mesh.relations.push_back(std::move(relation));
   }
   add(whole_of(part), name);

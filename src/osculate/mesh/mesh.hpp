@@ -50,7 +50,14 @@ struct Relation {
     int direction;
     double factor;
   };
+  /// A displacement of a node, or (direction -1) any of its displacements.
+  struct Support {
+    Index node = -1;
+    int direction = -1;
+    bool operator==(const Support&) const = default;
+  };
   std::vector<Term> terms;
+  Support from{};  ///< it holds from the step on that prescribes this; without a node always
 };
 
 /// A node that one of a shell, a beam or a plane element was expanded to (io::read_inp): it has the

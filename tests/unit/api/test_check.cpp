@@ -52,6 +52,23 @@ TEST(Check, AClearanceIsSaidBesideTheGapsOfTheMesh) {
   EXPECT_THAT(text, ::testing::Not(HasSubstr("Overlaps")));
 }
 
+TEST(Check, EquationsThatBeginAndEnd) {
+  const std::string text =
+      check_text(block("") +
+                 "  - {name: join, increments: 1, equations: [{terms: [{on: b.top, of: ux, factor: "
+                 "2}, {on: b.top_left, of: uy, factor: -0.5}], value: 0.1, for_each_node: true}, "
+                 "{terms: [{on: b.top_right, of: uy, factor: 1}]}]}\n"
+                 "  - {name: some, increments: 1, free_equations: [{on: b.top, of: [ux]}]}\n"
+                 "  - {name: none, increments: 1, free_equations: all}\n")
+          .text;
+  for (const char* const line :
+       {"  equation    b.top            2 ux -0.5 uy of b.top_left = 0.1, of each node\n"
+        "  equation    b.top_right      1 uy = 0\n",
+        "  free        b.top            equations of ux\n",
+        "  free        all              equations\n"})
+    EXPECT_THAT(text, HasSubstr(line));
+}
+
 TEST(Check, SizeSetsCellsLoadsAndSupports) {
   const CheckReport report = check_text(block(""));
   for (const char* const line :

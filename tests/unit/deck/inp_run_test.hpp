@@ -34,15 +34,19 @@ struct DeckRun {
   }
 };
 
-/// Of a deck, or of a model file by the ending of its name.
-inline DeckRun run_deck(const std::string& text, const std::string& ending = ".inp") {
+inline Built3 built_deck(const std::string& text, const std::string& ending = ".inp") {
   const std::string path = ::testing::TempDir() + "osculate_" +
                            ::testing::UnitTest::GetInstance()->current_test_info()->name() + ending;
   std::ofstream(path) << text;
-  DeckRun run;
   AnyBuilt built = build_any_file(path);
   std::remove(path.c_str());
-  run.built = std::move(std::get<Built3>(built));
+  return std::move(std::get<Built3>(built));
+}
+
+/// Of a deck, or of a model file by the ending of its name.
+inline DeckRun run_deck(const std::string& text, const std::string& ending = ".inp") {
+  DeckRun run;
+  run.built = built_deck(text, ending);
   model::AnalysisObserver3 observer;
   observer.converged = [&](model::System3& system, const model::State3& state,
                            const model::Progress& p, const solve::IncrementRecord* record) {

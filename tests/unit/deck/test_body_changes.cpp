@@ -25,7 +25,7 @@ model::Model in_step(const Built& b, std::size_t step) {
 
 TEST(BodyChanges, StayFromStepToStep) {
   const Built b = build_text(bars());
-  ASSERT_EQ(b.model.body_changes.size(), 3U);
+  ASSERT_EQ(b.model.body_changes.size(), 4U);
   EXPECT_FALSE(model::bodies_change(b.model, 0));
   EXPECT_TRUE(model::bodies_change(b.model, 1));
   const model::Model one = in_step(b, 1), again = in_step(b, 2), apart = in_step(b, 3);
@@ -38,6 +38,9 @@ TEST(BodyChanges, StayFromStepToStep) {
   EXPECT_EQ(one.equations.size(), 2U);
   EXPECT_EQ(again.equations.size(), 2U);
   EXPECT_EQ(apart.equations.size(), 1U);
+  const model::Model joined = in_step(b, 4);
+  ASSERT_EQ(joined.equations.size(), 2U);
+  EXPECT_EQ(joined.equations[1].value, 0.5);
   // new cells have no strain of their own, and those that stay keep theirs
   EXPECT_FALSE(b.model.sections[1].initial[0].empty());
   EXPECT_TRUE(again.sections[1].initial[0].empty());
@@ -139,6 +142,94 @@ TEST(BodyChanges, TakeTheirEnergyWithThem) {
   EXPECT_LT(after.strain + after.kinetic, 0.6 * (before.strain + before.kinetic));
   EXPECT_GE(after.plastic, before.plastic);
   EXPECT_NEAR(after.residual, before.residual, 1e-3 * before.strain);
+}
+
+/// Two bars of stiffness 100 and 50 side by side, one of them pulled by 6.
+std::string two_bars(const std::string& steps) {
+  return "osculate: 1\nmesh: {generate: {a: {box: {x: [0, 1], y: [0, 1], elements: [2, 1]}}, "
+         "b: {box: {x: [0, 1], y: [2, 3], elements: [2, 1]}}}}\n"
+         "materials: {stiff: {linear_elastic: {E: 100, nu: 0}}, soft: {linear_elastic: {E: 50, nu: "
+         "0}}}\nsections: [{on: a, material: stiff, element: plane_strain}, {on: b, material: "
+         "soft, "
+         "element: plane_strain}]\nsteps:\n"
+         "  - {name: pull, increments: 2, prescribe: [{on: a.left, ux: 0}, {on: b.left, ux: 0}, "
+         "{on: a, uy: 0}, {on: b, uy: 0}], total_force: [{on: a.right, fx: 6}]}\n" +
+         steps;
+}
+
+/// Displacements of the ends of both bars at the end of each increment.
+std::vector<Vec2> ends_of_bars(const std::string& text) {
+  const Built b = build_text(text);
+  std::vector<Vec2> ends;
+  model::AnalysisObserver observer;
+  observer.converged = [&](model::System&, const model::State& state, const model::Progress&,
+                           const solve::IncrementRecord* record) {
+    const auto end = [&](const char* set) {
+      return state.u[2 * b.model.mesh.find_set(set)->nodes.at(0)];
+    };
+    if (record) ends.emplace_back(end("a.bottom_right"), end("b.top_right"));
+    return true;
+  };
+  EXPECT_EQ(model::run(b.model, b.options, observer).outcome, solve::Outcome::converged);
+  return ends;
+}
+
+constexpr const char* joined_ends =
+    "equations: [{terms: [{on: b.right, of: ux, factor: 1}, {on: a.right, of: ux, factor: -1}], "
+    "for_each_node: true";
+
+/// Equations that begin hold of the displacements in all, from their first increment on.
+TEST(BodyChanges, EquationsBeginWithAStep) {
+  const std::vector<Vec2> ends = ends_of_bars(
+      two_bars(std::string("  - {name: join, increments: 2, ") + joined_ends +
+               ", value: 0.03}]}\n  - {name: part, increments: 1, free_equations: all}\n"));
+  ASSERT_EQ(ends.size(), 5U);
+  EXPECT_NEAR((ends[0] - Vec2(0.03, 0)).norm(), 0, 1e-12);
+  EXPECT_NEAR((ends[1] - Vec2(0.06, 0)).norm(), 0, 1e-12);
+  for (const int i : {2, 3})  // 100 u_a + 50 u_b = 6 , u_b = u_a + 0.03
+    EXPECT_NEAR((ends[i] - Vec2(0.03, 0.06)).norm(), 0, 1e-12) << i;
+  EXPECT_NEAR((ends[4] - Vec2(0.06, 0)).norm(), 0, 1e-12);
+}
+
+/// What a step frees and brings itself: first the old ones end.
+TEST(BodyChanges, EquationsTakeThePlaceOfOthers) {
+  const std::vector<Vec2> ends =
+      ends_of_bars(two_bars(std::string("  - {name: join, increments: 1, ") + joined_ends +
+                            "}]}\n  - {name: anew, increments: 1, free_equations: all, " +
+                            joined_ends + ", value: 0.03}]}\n"));
+  ASSERT_EQ(ends.size(), 4U);
+  EXPECT_NEAR((ends[2] - Vec2(0.04, 0.04)).norm(), 0, 1e-12);
+  EXPECT_NEAR((ends[3] - Vec2(0.03, 0.06)).norm(), 0, 1e-12);
+}
+
+TEST(BodyChanges, EquationsThatBeginAreRefusedWithTheReason) {
+  const auto refused = [](const std::string& step) {
+    return build_refusal(two_bars("  - {name: join, increments: 1, " + step + "}\n"));
+  };
+  const auto of_one = [&](const std::string& on, const std::string& term) {
+    return refused("equations: [{terms: [{on: " + on + ", " + term + "}]}]");
+  };
+  const std::string at = "model.yaml:7: steps[1].equations[0]";
+  EXPECT_EQ(of_one("b.rigt", "of: ux, factor: 1"),
+            at + ".terms[0].on: unknown set 'b.rigt'; did you mean 'b.right'?");
+  EXPECT_EQ(of_one("b.right", "of: ux, factor: 0"), at + ".terms[0].factor: must not be zero");
+  EXPECT_EQ(of_one("b.right", "of: uz, factor: 1"),
+            at + ".terms[0].on: 'uz' exists in space only, and this model is plane: no section has "
+                 "the element solid or solid_shell");
+  EXPECT_EQ(of_one("b.right", "of: rz, factor: 1"),
+            at + ".terms[0].on: 'rz' needs a rigid body: unknown rigid body 'b.right'; there are "
+                 "none");
+  EXPECT_EQ(refused("equations: [{}]"), at + ": required key 'terms' is missing");
+  const std::string joined = std::string(joined_ends) + "}]";
+  EXPECT_EQ(refused(joined + ", prescribe: [{on: a.right, ux: 0.1}, {on: b.right, ux: 0.2}]"),
+            at + ": no displacement of it is free: steps prescribe them");
+  EXPECT_EQ(build_refusal(
+                edited(two_bars("  - {name: join, increments: 1, " + joined + "}\n"), "steps:\n",
+                       "ties: [{slave: b.bottom, master: a.top, tolerance: 2}]\nsteps:\n")),
+            "model.yaml:5: ties[0].slave: equations that begin or end (step 'join') are not "
+            "supported beside ties: whose displacements they give, ties would");
+  EXPECT_EQ(refused(joined + ", dynamics: {scheme: central_differences}, duration: 1"),
+            at + ": bodies and equations do not change in analyses with explicit steps");
 }
 
 TEST(BodyChanges, TangentsAreDerivatives) {

@@ -54,6 +54,18 @@ TEST(InpCae, SectionsOfPartsAreThoseOfTheirInstances) {
   EXPECT_NEAR(run.reaction_of("Set-bot").z(), -8 + 30, 1e-9);
 }
 
+/// Sets and elements of an instance, by their names in it: a pressure on the top of Block-2 and a
+/// force per volume of Block-1.
+TEST(InpCae, LoadsActOnElementsOfInstances) {
+  for (const std::string top : {"Block-2.Set-1", "Block-2.1", "block-2.SET-1"}) {
+    const DeckRun run = run_deck(
+        stack(section, isotropic,
+              held + "*Dload\n" + top + ", P2, 5.\nBlock-1.1, BZ, -2.\nBlock-2.1, BZ, 1.\n"));
+    EXPECT_NEAR(run.displacement(17).z(), (-5 * 4 + 1 * 2 * 3 - 2 * 2 * 1) / 100.0, 1e-10);
+    EXPECT_NEAR(run.reaction_of("Set-bot").z(), 5 + 4 - 2, 1e-9);
+  }
+}
+
 /// The x of the part is the y of Block-2.
 TEST(InpCae, AxesOfPartsTurnWithTheirInstances) {
   const std::string turned =

@@ -12,6 +12,7 @@ namespace osculate::deck {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 const std::string cube = "*NODE, NSET=NALL\n" + cube_nodes(1, {0, 0, 0}) +
                          "*ELEMENT, TYPE=C3D8, ELSET=E\n1, 1, 2, 3, 4, 5, 6, 7, 8\n"
@@ -222,13 +223,26 @@ TEST(InpParameters, BoundsOfFrequenciesAreListed) {
 }
 
 TEST(InpParameters, TemperaturesGoBackToThoseAtFirst) {
-  TranslatedDeck deck = deck_with(
-      "*MATERIAL, NAME=A\n*ELASTIC\n1., 0.\n*EXPANSION\n1E-3\n*SOLID SECTION, ELSET=E, MATERIAL=A\n"
-      "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nNALL, 20.\n*STEP\n*STATIC\n*TEMPERATURE\nTOP, 80.\n"
-      "*END STEP\n*STEP\n*STATIC\n*TEMPERATURE, OP=NEW\nBASE, 50.\n*END STEP\n");
-  const std::string yaml = to_yaml(deck.root);
-  EXPECT_THAT(yaml, HasSubstr("    temperature:\n      - {on: TOP, value: 0}\n      - {on: NALL, "
-                              "value: 20}\n      - {on: BASE, value: 50}\n"));
+  const auto second_step = [](const std::string& heated, const std::string& now) {
+    TranslatedDeck deck = deck_with(
+        "*MATERIAL, NAME=A\n*ELASTIC\n1., 0.\n*EXPANSION\n1E-3\n*SOLID SECTION, ELSET=E, "
+        "MATERIAL=A\n*INITIAL CONDITIONS, TYPE=TEMPERATURE\nNALL, 20.\n*STEP\n*STATIC\n"
+        "*TEMPERATURE\n" +
+        heated + ", 80.\n*END STEP\n*STEP\n*STATIC\n*TEMPERATURE, OP=NEW\n" + now +
+        ", 50.\n*END STEP\n");
+    const std::string yaml = to_yaml(deck.root);
+    (void)parse_model(std::move(deck.root), "a.inp");
+    return yaml.substr(yaml.rfind("    temperature:\n"));
+  };
+  EXPECT_THAT(second_step("TOP", "BASE"),
+              StartsWith("    temperature:\n      - {on: TOP, value: 0}\n      - {on: NALL, value: "
+                         "20}\n      - {on: BASE, value: 50}\n"));
+  // the set that has a temperature at first is that which was heated: it is named once
+  EXPECT_THAT(second_step("NALL", "BASE"),
+              StartsWith("    temperature:\n      - {on: NALL, value: 20}\n      - {on: BASE, "
+                         "value: 50}\n"));
+  EXPECT_THAT(second_step("NALL", "NALL"),
+              StartsWith("    temperature:\n      - {on: NALL, value: 50}\n"));
 }
 
 TEST(InpParameters, LocalResultsOfNodesWithAxes) {

@@ -28,6 +28,34 @@ std::string fault(const std::string& text) {
   return {};
 }
 
+/// The cube of another density.
+std::string edited_cube(const std::string& density) {
+  std::string text = cube;
+  return text.replace(text.find("1e-9\n"), 4, density);
+}
+
+/// By a set that has a mass beside the cube, by name or number, and by one of masses alone.
+TEST(InpSprings, SetsMayHaveMassesBesideCells) {
+  const std::string mass =
+      "*ELEMENT, TYPE=MASS, ELSET=MA\n50, 2\n51, 3\n*MASS, ELSET=MA\n4.\n*ELEMENT, TYPE=MASS, "
+      "ELSET=MB\n52, 6\n*MASS, ELSET=MB\n8.\n*BOUNDARY\nALL, 1, 3\n";
+  const auto weight = [&](const std::string& sets, const std::string& density) {
+    return run_deck(edited_cube(density) + mass + sets +
+                    step("*DLOAD\nEALL, GRAV, 10., 0., 0., -1.\n"))
+        .reaction_of("ALL")
+        .z();
+  };
+  EXPECT_NEAR(weight("*ELSET, ELSET=EALL\nCUBE, MA\n", "2."), 20 + 2 * 40, 1e-9);
+  EXPECT_NEAR(weight("*ELSET, ELSET=EALL\n1, 51, 52\n", "2."), 20 + 40 + 80, 1e-9);
+  EXPECT_NEAR(weight("*ELSET, ELSET=EALL, GENERATE\n1, 51\n", "2."), 20 + 2 * 40, 1e-9);
+  EXPECT_NEAR(weight("*ELSET, ELSET=BOTH\nMA\n*ELSET, ELSET=EALL\nBOTH, MB\n", "2."), 160, 1e-9);
+  EXPECT_NEAR(weight("*ELSET, ELSET=EALL\nCUBE\n", "2."), 20, 1e-9);
+  EXPECT_NE(fault(cube + mass + "*ELSET, ELSET=EALL\nCUBE, MC\n").find("set of elements 'MC'"),
+            std::string::npos);
+  EXPECT_NE(fault(cube + mass + "*ELSET, ELSET=EALL\n1, 53\n").find("element 53 does not exist"),
+            std::string::npos);
+}
+
 /// Along the line between nodes, in directions of one and of two nodes, by a table.
 TEST(InpSprings, OfAllKinds) {
   const std::string spring = "*ELEMENT, TYPE=SPRINGA, ELSET=A\n2, 22, 21\n*SPRING, ELSET=A\n\n5.\n";

@@ -5,6 +5,7 @@
 
 #include <map>
 
+#include "deck_test.hpp"
 #include "inp_run_test.hpp"
 #include "osculate/core/error.hpp"
 #include "osculate/deck/inp_translate.hpp"
@@ -118,6 +119,62 @@ TEST(InpThin, RowsOfS8RBendFarWithNlgeom) {
   EXPECT_NEAR(bent(4, 1, row), fine, 0.03 * fine);
   EXPECT_LT(row, 300U);  // 5388 with a millionth
   EXPECT_LT(others, 60U);
+}
+
+/// Of plates and a beam whose supports come and go, held along axes of their own and by equations:
+/// what ccx 2.20 prints of nodes at the end of each step, seven digits.
+TEST(InpThin, MiddlesAreTiedFromTheStepOnThatHoldsThem) {
+  struct Printed {
+    std::size_t step;
+    int node;
+    Vec3 u;
+  };
+  const std::vector<Printed> all{{0, 12, {-1.199774e-3, 3.306897e-3, 2.764490e-2}},
+                                 {0, 48, {4.675991e-4, 1.739761e-3, 1.892713e-3}},
+                                 {0, 65, {0, 2.544013e-1, 4.330359e-2}},
+                                 {1, 12, {-1.444005e-4, 3.424017e-4, 2.371203e-3}},
+                                 {1, 24, {6.527393e-4, 5.965546e-4, 2.044338e-3}},
+                                 {1, 48, {4.537171e-4, 2.213450e-3, 5.703425e-4}},
+                                 {1, 65, {0, 5.319438e-2, 5.019191e-3}},
+                                 {2, 12, {-1.444005e-4, 3.424017e-4, 2.371203e-3}},
+                                 {2, 65, {0, 5.182312e-2, 4.437820e-3}},
+                                 {3, 12, {-1.199644e-3, 3.305520e-3, 4.222399e-4}},
+                                 {3, 24, {1.901958e-3, 3.333301e-3, 4.480564e-4}},
+                                 {3, 44, {1.331068e-3, 1.306144e-3, 2.721205e-4}},
+                                 {3, 64, {0, -1.825902e-2, 0}}};
+  const DeckRun run = run_deck(test_file("../../decks/own/supports_later.inp"));
+  ASSERT_EQ(run.u.size(), 4U);
+  for (const Printed& p : all)
+    EXPECT_LT((run.displacement(p.node, p.step) - p.u).norm(), 1e-6 * p.u.norm())
+        << "node " << p.node << ", step " << p.step + 1;
+}
+
+/// Each once, with the first step that holds the node, whatever becomes of the support.
+TEST(InpThin, MiddlesAreTiedOnce) {
+  const std::string plate =
+      "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 1, 1, 0\n4, 0, 1, 0\n5, .5, 0, 0\n6, 1, .5, 0\n"
+      "7, .5, 1, 0\n8, 0, .5, 0\n*ELEMENT, TYPE=S8, ELSET=E\n1, 1, 2, 3, 4, 5, 6, 7, 8\n"
+      "*MATERIAL, NAME=M\n*ELASTIC\n1000., 0.3\n*SHELL SECTION, ELSET=E, MATERIAL=M\n0.1\n";
+  const auto step = [](const std::string& what) {
+    return "*STEP\n*STATIC\n" + what + "*END STEP\n";
+  };
+  using Pair = std::pair<std::size_t, std::size_t>;
+  const auto changes = [&](const std::string& second, const std::string& third) {
+    const Built3 built =
+        built_deck(plate + step("*BOUNDARY\n1, 1, 3\n") + step(second) + step(third));
+    std::vector<Pair> all{{0, built.model.equations.size()}};
+    for (const auto& change : built.model.body_changes)
+      all.emplace_back(change.step, change.equations ? change.equations->size() : 0);
+    return all;
+  };
+  const std::string held = "*BOUNDARY\n3, 2, 3\n";
+  const std::size_t count = changes("", "").at(0).second;
+  EXPECT_THAT(changes("", ""), ElementsAre(Pair(0, count)));
+  EXPECT_THAT(changes("", "*BOUNDARY\n1, 1, 1, 0.5\n6, 1, 3\n"), ElementsAre(Pair(0, count)));
+  EXPECT_THAT(changes(held, ""), ElementsAre(Pair(0, count), Pair(1, count + 2)));
+  EXPECT_THAT(changes("", held), ElementsAre(Pair(0, count), Pair(2, count + 2)));
+  EXPECT_THAT(changes(held, "*BOUNDARY, OP=NEW\n1, 1, 3\n3, 1\n"),
+              ElementsAre(Pair(0, count), Pair(1, count + 2), Pair(2, count + 3)));
 }
 
 TEST(InpThin, SectionsAreSolids) {

@@ -195,6 +195,10 @@ TEST(ToInp, WhatHasNoCounterpartIsRefusedByItsKey) {
   EXPECT_THAT(
       refusal("normal: {penalty: 1e4}", "enforcement: augmented_lagrange, normal: {penalty: 1e4}"),
       HasSubstr("contact[0].enforcement: has no counterpart"));
+  EXPECT_THAT(refusal("    release: [{on: high.left,",
+                      "    equations: [{terms: [{on: low.top_front_left, of: uy, factor: 1}]}]\n"
+                      "    release: [{on: high.left,"),
+              HasSubstr("steps[1].equations[0].terms[0].on: has no counterpart"));
   EXPECT_THAT(refusal("formulation: full, kinematics: small", "kinematics: finite"),
               HasSubstr("all sections have finite strains (NLGEOM), or none"));
   EXPECT_THAT(refusal("on: high.left, of: [uy]", "on: high.bottom_front_left, of: [uy]"),

@@ -292,8 +292,16 @@ class Collector {
                      shown(type->value), element_type_names()));
   }
 
+  void read_discrete(const Card& card) {
+    const Parameter* const set = find_parameter(card, "ELSET");
+    std::vector<std::int32_t>& numbers = here().discrete[set ? capitals(set->value) : ""];
+    for (const Line& line : lines_of(deck_, card))
+      if (const auto number = number_of(Fields(deck_, line).next().value_or("")))
+        numbers.push_back(*number);
+  }
+
   void read_elements(const Card& card) {
-    if (discrete_nodes(card) > 0) return;
+    if (discrete_nodes(card) > 0) return read_discrete(card);
     Scope& scope = here();
     RawElements& elements = scope.elements.emplace_back();
     elements.type = &type_of(card);

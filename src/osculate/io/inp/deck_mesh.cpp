@@ -170,7 +170,12 @@ class Builder {
   void add_elements(std::uint32_t scope, const RawSet& raw) {
     std::array<std::vector<mesh::CellRef>, 4> cells;
     Typed typed;
-    for (const Index index : members_.of(Kind::elements, scope, raw.name, raw.at)) {
+    const std::vector<Index>& members = members_.of(Kind::elements, scope, raw.name, raw.at);
+    if (std::set<std::int32_t> discrete = members_.discrete(scope, raw); !discrete.empty()) {
+      if (scope == 0) out_.discrete[capitals(raw.name)] = std::move(discrete);
+      if (members.empty()) return;
+    }
+    for (const Index index : members) {
       const Element& element = numbering_.elements[static_cast<std::size_t>(index)];
       std::vector<mesh::CellRef> refs{element.cell};
       refs.insert(refs.end(), element.others.begin(), element.others.end());

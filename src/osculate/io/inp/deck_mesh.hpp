@@ -1,5 +1,6 @@
 #pragma once
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,6 +39,8 @@ struct DeckMesh {
   bool sectors = false;  ///< axisymmetric elements became sectors of 2 degrees
   /// Numbers of nodes that sets list and that do not exist, with a line each: left out.
   std::map<std::int64_t, std::uint32_t> missing{};
+  /// Masses and others that are no cells, by number, of sets of elements (in capitals).
+  std::map<std::string, std::set<std::int32_t>> discrete{};
 };
 
 /// Of a set of elements that `*SHELL SECTION, COMPOSITE` names: one of its layers, the first of

@@ -153,14 +153,19 @@ class Expander : private Fibers {
     if (stiff != 1) return;
     if (!groups[last].section->layers.empty())
       follow(node, shares_of_levels(groups[last], fibers[last]));
-    else if (is_plate(groups[last]) && groups[last].has_middle)
+    else if (is_plate(groups[last]) && groups[last].has_middle && !moves_in_the_mean(node))
       add_weighted(node, fibers[last]);
     else if (groups[last].section->is_hollow())
       follow(node, shares_of(fibers[last], axis_shares(groups[last])));
     else
       add_mean(node, corners_of(groups[last], fibers[last]));
-    straighten(node, groups[last], fibers[last]);
     add_rotations(node, groups[last], fibers[last]);
+    straighten(node, groups[last], fibers[last]);
+  }
+
+  /// What conditions between nodes and supports along axes of a node act on: its bottom and top.
+  [[nodiscard]] bool moves_in_the_mean(Index node) const {
+    return cards_.joined.contains(node) || cards_.held_along_axes.contains(node);
   }
 
   /// The levels between bottom and top belong to a knot, too.
@@ -190,23 +195,32 @@ class Expander : private Fibers {
           {{{node, k, 1}, {fiber[0], k, 0.5}, {fiber[1], k, -2}, {fiber[2], k, 0.5}}});
   }
 
-  /// Where a node is held the edges of its section keep their middles between their ends; hollow
-  /// sections are held in the mean.
+  /// From the step on that holds a displacement of a shell's node its middle keeps between bottom
+  /// and top in that direction; from the step on that holds a rotation of a beam's node the middles
+  /// of the edges of its section keep between their ends.
   void straighten(Index node, const ThinGroup& group, const Fiber& fiber) {
-    const auto held = cards_.held.find(node);
     const bool layered = !group.section->layers.empty();  // levels at middles of sides, too
-    if (held == cards_.held.end() || group.section->is_hollow()) return;
     if (!group.has_middle && !layered) return;
-    for (int k = 0; k < 3; ++k) {
-      if (!held->second[static_cast<std::size_t>(k)]) continue;
-      if (layered)
-        straighten_levels(group, fiber, k);
-      else if (is_plate(group))
-        add_mean(fiber[1], {fiber[0], fiber[2]}, k);
-      else
-        for (std::size_t m = 0; m < 4; ++m)
-          add_mean(fiber[4 + m], {fiber[m], fiber[(m + 1) % 4]}, k);
+    if (is_plate(group)) {
+      if (cards_.held_along_axes.contains(node)) return;
+      for (int k = 0; k < 3; ++k) {
+        const std::size_t first = mesh_.relations.size();
+        if (layered)
+          straighten_levels(group, fiber, k);
+        else
+          add_mean(fiber[1], {fiber[0], fiber[2]}, k);
+        for (std::size_t r = first; r < mesh_.relations.size(); ++r)
+          mesh_.relations[r].from = {node, k};
+      }
+      return;
     }
+    const auto turns = out_.rotations.find(node);
+    if (turns == out_.rotations.end()) return;
+    for (int k = 0; k < 3; ++k)
+      for (std::size_t m = 0; m < 4; ++m) {
+        add_mean(fiber[4 + m], {fiber[m], fiber[(m + 1) % 4]}, k);
+        mesh_.relations.back().from = {turns->second, -1};
+      }
   }
 
   /// How a knot may stretch: beams of one direction in their plane, others alike all around.

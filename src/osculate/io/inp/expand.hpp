@@ -29,10 +29,11 @@ struct Expansion {
 /// The nodes of the deck remain: a relation of the mesh says that each moves as the mean of the
 /// corners it was expanded to. Where elements do not continue each other (thin_groups) it is a knot
 /// instead: with finite steps a set of nodes that move as one, else relations, with which it may
-/// stretch. Where a node is held the middles of the edges of second-order sections stay straight.
-/// Rotations that the deck holds or loads are small, the mean over the corners of the
-/// rotation about the axes; a node of its own has them as displacements. Ends of trusses are joined
-/// by the means alone; that the first end does not turn about the truss is one relation more.
+/// stretch. From the step on that holds a node of a shell of second order, or a rotation of one of
+/// a beam, the middles of the edges of its section stay straight. Rotations that the deck holds or
+/// loads are small, the mean over the corners of the rotation about the axes; a node of its own has
+/// them as displacements. Ends of trusses are joined by the means alone; that the first end does
+/// not turn about the truss is one relation more.
 ///
 /// Plane elements beside these or solids become one layer of C3D6, C3D8, C3D15 or C3D20, of the
 /// same integration: plates between -t/2 and t/2, and sectors of 2 degrees in the middle of which
@@ -41,7 +42,7 @@ struct Expansion {
 /// Numbers    new nodes go on after the largest one of the deck; cells have those of the elements
 /// Source     CalculiX CrunchiX User's Manual, "Expansion of the one-dimensional and
 ///            two-dimensional elements"
-/// Tested by  tests/unit/io/test_inp_expand.cpp, tests/system/test_shells.cpp
+/// Tested by  tests/unit/io/test_inp_expand.cpp, test_inp_supports.cpp, tests/system/test_shells.py
 [[nodiscard]] Expansion expand(const Deck& deck, const ThinCards& cards, Numbering& numbering,
                                mesh::Mesh& mesh);
 

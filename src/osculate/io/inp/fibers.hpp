@@ -63,7 +63,7 @@ class Fibers {
   /// Formula    u = sum h_i / h (2 u_middle - (u_bottom + u_top) / 2) , without middles
   ///            sum h_i / h (u_bottom + u_top) / 2
   [[nodiscard]] Shares shares_of_levels(const ThinGroup& group, const Fiber& fiber) const;
-  /// Where a node is held its normal stays straight.
+  /// The normal stays straight.
   void straighten_levels(const ThinGroup& group, const Fiber& fiber, int direction);
   [[nodiscard]] std::vector<std::vector<Index>> layer_nodes(const ThinSection& section,
                                                             const std::vector<Fiber>& at,

@@ -4,25 +4,34 @@
 
 #include <array>
 #include <limits>
+#include <tuple>
 
 namespace osculate::io::inp {
 namespace {
 
-/// `instance.17`, a node of an instance, which keeps that name.
-void add_node_of_instance(std::string_view field, Place at, RawMesh& mesh) {
-  const std::size_t dot = field.find('.');
-  if (dot == std::string_view::npos) return;
-  const auto instance = mesh.instances.find(capitals(field.substr(0, dot)));
-  const std::string name = name_of(field.substr(dot + 1));
+/// What `instance.NAME` means: the scope of the instance, and the name in it; outside of them all
+/// else.
+std::pair<std::uint32_t, std::string> in_instance(std::string_view field, const RawMesh& mesh) {
+  if (const std::size_t dot = field.find('.'); dot != std::string_view::npos)
+    if (const auto instance = mesh.instances.find(capitals(field.substr(0, dot)));
+        instance != mesh.instances.end())
+      return {instance->second, name_of(field.substr(dot + 1))};
+  return {own_scope, name_of(field)};
+}
+
+/// `instance.17`, a node or element of an instance, which keeps that name.
+void add_one_of_instance(std::string_view field, Place at, Named<RawSet> Scope::*sets,
+                         RawMesh& mesh) {
+  const auto [scope, name] = in_instance(field, mesh);
   const std::optional<std::int32_t> number = number_of(name);
-  if (instance == mesh.instances.end() || !number) return;
-  RawSet& set = mesh.scopes[instance->second].node_sets[name];
+  if (scope == own_scope || !number) return;
+  RawSet& set = (mesh.scopes[scope].*sets)[name];
   if (set.name.empty()) set = {name, at, {{*number, *number, 1, own_scope, at, false}}, {}};
 }
 
 void add_node(std::string_view field, Place at, RawMesh& mesh) {
   const std::optional<std::int32_t> number = number_of(field);
-  if (!number) return add_node_of_instance(name_of(field), at, mesh);
+  if (!number) return add_one_of_instance(name_of(field), at, &Scope::node_sets, mesh);
   const std::string name = node_set_name(*number);
   RawSet& set = mesh.scopes[0].node_sets[capitals(name)];
   if (!set.name.empty()) return;
@@ -34,7 +43,7 @@ void add_node(std::string_view field, Place at, RawMesh& mesh) {
 /// The set of the element that a body force names by its number.
 void add_element(std::string_view elements, Place at, RawMesh& mesh) {
   const std::optional<std::int32_t> number = number_of(elements);
-  if (!number) return;
+  if (!number) return add_one_of_instance(elements, at, &Scope::element_sets, mesh);
   const std::string name = element_set_name(elements);
   RawSet& set = mesh.scopes[0].element_sets[capitals(name)];
   if (!set.name.empty()) return;
@@ -72,8 +81,10 @@ void add_side(const Deck& deck, const Line& line, RawMesh& mesh) {
   surface.name = name;
   surface.at = line.at;
   SurfaceEntry entry;
-  entry.set = {elements, own_scope, line.at, true};
-  if (is_number(elements)) entry.number = number_of(deck, line.at, elements, "an element");
+  entry.set = {"", own_scope, line.at, true};
+  std::tie(entry.set.scope, entry.set.name) = in_instance(elements, mesh);
+  if (is_number(entry.set.name))
+    entry.number = number_of(deck, line.at, entry.set.name, "an element");
   entry.side = load;
   entry.of_load = true;
   surface.entries.push_back(std::move(entry));

@@ -61,6 +61,7 @@ std::vector<Index> Members::of(Kind kind, std::uint32_t scope, const RawSet& set
   for (const Range& range : set.ranges) add_range(kind, meant(range.scope), range, members);
   for (const SetName& named : set.names) {
     const Kind from = named.of_elements ? Kind::elements : kind;
+    if (from == Kind::elements && is_discrete(meant(named.scope), named.name)) continue;
     const std::vector<Index>& part = of(from, meant(named.scope), named.name, named.at);
     if (from == kind)
       members.insert(members.end(), part.begin(), part.end());
@@ -69,6 +70,33 @@ std::vector<Index> Members::of(Kind kind, std::uint32_t scope, const RawSet& set
   }
   make_unique(members);
   return members;
+}
+
+bool Members::is_discrete(std::uint32_t scope, const std::string& set) const {
+  const Scope& in = raw_.scopes[scope];
+  return in.discrete.contains(capitals(set)) && !in.element_sets.contains(capitals(set));
+}
+
+std::set<std::int32_t> Members::discrete(std::uint32_t scope, const RawSet& set) const {
+  std::set<std::int32_t> numbers;
+  const auto in = [&](std::uint32_t given) -> const Scope& {
+    return raw_.scopes[given == own_scope ? scope : given];
+  };
+  for (const Range& range : set.ranges)
+    for (const auto& [key, all] : in(range.scope).discrete)
+      for (const std::int32_t number : all)
+        if (number >= range.first && number <= range.last &&
+            (number - range.first) % range.step == 0)
+          numbers.insert(number);
+  for (const SetName& named : set.names) {
+    const Scope& there = in(named.scope);
+    if (const auto all = there.discrete.find(capitals(named.name)); all != there.discrete.end())
+      numbers.insert(all->second.begin(), all->second.end());
+    if (const auto part = there.element_sets.find(capitals(named.name));
+        part != there.element_sets.end())
+      numbers.merge(discrete(named.scope == own_scope ? scope : named.scope, part->second));
+  }
+  return numbers;
 }
 
 void Members::add_nodes_of(Index element, std::vector<Index>& members) const {
@@ -86,6 +114,10 @@ void Members::add_range(Kind kind, std::uint32_t scope, const Range& range,
   const ScopeNumbers& known = numbering_.scopes[scope];
   const NumberMap& map = kind == Kind::nodes ? known.nodes : known.elements;
   const Index first = kind == Kind::nodes ? known.first_node : known.first_element;
+  const auto no_cell = [&](std::int32_t from, std::int32_t to) {
+    return kind == Kind::elements &&
+           !discrete(scope, {"", {}, {{from, to, range.step, scope}}, {}}).empty();
+  };
   if (!range.generated) {
     for (std::int64_t number = range.first; number <= range.last; ++number) {
       const Index place = map.find(number);
@@ -93,6 +125,9 @@ void Members::add_range(Kind kind, std::uint32_t scope, const Range& range,
         missing_.emplace(number, range.at.line);
         continue;
       }
+      if (place < 0 &&
+          no_cell(static_cast<std::int32_t>(number), static_cast<std::int32_t>(number)))
+        continue;
       if (place < 0) fail(deck_, range.at, fmt::format("{} {} does not exist", word(kind), number));
       members.push_back(first + place);
     }
@@ -104,7 +139,7 @@ void Members::add_range(Kind kind, std::uint32_t scope, const Range& range,
        ++i)
     if ((numbers[i] - range.first) % range.step == 0)
       members.push_back(first + static_cast<Index>(i));
-  if (members.size() == before)
+  if (members.size() == before && !no_cell(range.first, range.last))
     fail(deck_, range.at,
          fmt::format("none of the {}s from {} to {} exists", word(kind), range.first, range.last));
 }

@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,8 @@ class Members {
                                              const std::string& name, Place asked);
   /// Of a set that is described here and has no name.
   [[nodiscard]] std::vector<Index> of(Kind kind, std::uint32_t scope, const RawSet& set);
+  /// Masses and others of a set of elements that are no cells, by number; `of` passes over them.
+  [[nodiscard]] std::set<std::int32_t> discrete(std::uint32_t scope, const RawSet& set) const;
   /// Numbers of nodes that sets list and that do not exist, with the line of the last one's set;
   /// they are left out, as in CalculiX.
   [[nodiscard]] const std::map<std::int64_t, std::uint32_t>& missing() const { return missing_; }
@@ -40,6 +43,7 @@ class Members {
   };
 
   void add_range(Kind kind, std::uint32_t scope, const Range& range, std::vector<Index>& members);
+  [[nodiscard]] bool is_discrete(std::uint32_t scope, const std::string& set) const;
   void add_nodes_of(Index element, std::vector<Index>& members) const;
   [[noreturn]] void fail_unknown(Kind kind, std::uint32_t scope, const std::string& name,
                                  Place asked) const;

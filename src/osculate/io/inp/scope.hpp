@@ -77,7 +77,8 @@ struct Scope {
   std::vector<Place> node_at;
   std::vector<RawElements> elements;
   Named<RawSet> node_sets, element_sets, node_surfaces;
-  Named<RawSurface> surfaces;  ///< of elements
+  Named<RawSurface> surfaces;                 ///< of elements
+  Named<std::vector<std::int32_t>> discrete;  ///< masses and others that are no cells, by set
 };
 
 /// What the cards of a deck say of its mesh.

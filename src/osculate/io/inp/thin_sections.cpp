@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "osculate/io/inp/loaded_sets.hpp"
 
@@ -69,9 +70,13 @@ class Reader {
     for (const Card& card : deck_.cards) {
       if (card.keyword == "NODALTHICKNESS") read_thickness(card);
       if (card.keyword == "NORMAL") read_normals(card);
-      if (card.keyword == "BOUNDARY") read_directions(card, true);
-      if (card.keyword == "CLOAD") read_directions(card, false);
+      if (card.keyword == "BOUNDARY") read_rotations(card, true);
+      if (card.keyword == "CLOAD") read_rotations(card, false);
+      if (card.keyword == "TRANSFORM") add_named(option(card, "NSET"), transformed_);
+      read_joined(card);
     }
+    std::ranges::set_intersection(held_, transformed_,
+                                  std::inserter(out_.held_along_axes, out_.held_along_axes.end()));
     return std::move(out_);
   }
 
@@ -259,8 +264,9 @@ class Reader {
     }
   }
 
-  /// Directions of nodes that are held or loaded; what is wrong in the lines the translation tells.
-  void read_directions(const Card& card, bool of_boundary) {
+  /// Nodes that are held, and rotations that are held or loaded; what is wrong in the lines the
+  /// translation tells.
+  void read_rotations(const Card& card, bool of_boundary) {
     for (const Line& line : lines_of(deck_, card)) {
       Fields fields(deck_, line);
       const std::string_view nodes = fields.next().value_or("");
@@ -272,8 +278,49 @@ class Reader {
         for (int k = *first; k <= std::min(last.value_or(*first), 6); ++k) directions.push_back(k);
       for (const int k : directions) {
         if (k < 4 && !of_boundary) continue;
-        for (const Index node : nodes_of(nodes, line.at))
-          (k < 4 ? out_.held : out_.rotations)[node][static_cast<std::size_t>((k - 1) % 3)] = true;
+        for (const Index node : nodes_of(nodes, line.at)) {
+          if (k < 4)
+            held_.insert(node);
+          else
+            out_.rotations[node][static_cast<std::size_t>(k - 4)] = true;
+        }
+      }
+    }
+  }
+
+  /// Nodes that a field names, if there are some.
+  void add_named(std::string_view field, std::set<Index>& to) {
+    std::string name = name_of(field);
+    const std::uint32_t scope = take_instance(name);
+    if (const std::optional<std::int32_t> number = number_of(name)) {
+      const ScopeNumbers& numbers = numbering_.scopes[scope];
+      if (const Index place = numbers.nodes.find(*number); place >= 0)
+        to.insert(numbers.first_node + place);
+    } else if (raw_.scopes[scope].node_sets.contains(capitals(name))) {
+      for (const Index node : members_.of(Kind::nodes, scope, name, {})) to.insert(node);
+    }
+  }
+
+  /// Nodes of conditions between nodes. Terms of equations are a node, a direction and a factor.
+  void read_joined(const Card& card) {
+    if (card.keyword == "RIGIDBODY")
+      for (const char* const set : {"NSET", "PINNSET", "TIENSET"})
+        add_named(option(card, set), out_.joined);
+    if (card.keyword != "EQUATION" && card.keyword != "MPC") return;
+    std::int32_t left = 0;  // fields of the equation
+    for (const Line& line : lines_of(deck_, card)) {
+      Fields fields(deck_, line);
+      if (card.keyword == "MPC") (void)fields.next();
+      while (!fields.done()) {
+        const std::string_view field = fields.next().value_or("");
+        if (card.keyword == "MPC") {
+          add_named(field, out_.joined);
+        } else if (left == 0) {
+          left = 3 * std::max(0, number_of(field).value_or(0));
+          break;
+        } else if (left-- % 3 == 0) {
+          add_named(field, out_.joined);
+        }
       }
     }
   }
@@ -282,6 +329,7 @@ class Reader {
   const RawMesh& raw_;
   const Numbering& numbering_;
   Members& members_;
+  std::set<Index> held_, transformed_;
   ThinCards out_;
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -42,7 +43,8 @@ struct ThinCards {
   std::map<Index, std::array<double, 2>> thickness;  ///< by node
   std::map<std::pair<Index, Index>, Vec3> normals;   ///< by element and node
   std::map<Index, std::array<bool, 3>> rotations;    ///< by node: held, turned or with a moment
-  std::map<Index, std::array<bool, 3>> held;         ///< by node: displacements of `*BOUNDARY`
+  std::set<Index> held_along_axes;                   ///< nodes of `*BOUNDARY` with a `*TRANSFORM`
+  std::set<Index> joined;  ///< nodes that `*EQUATION`, `*MPC` or `*RIGID BODY` name
 };
 
 /// Whether a card is an `*MPC` with PLANE, STRAIGHT or BEAM.
@@ -61,7 +63,8 @@ struct ThinCards {
 
 /// From `*SHELL SECTION`, `*BEAM SECTION`, `*BEAM GENERAL SECTION`, `*SOLID SECTION` of trusses,
 /// `*NODAL THICKNESS`,
-/// `*NORMAL`, and rotations in `*BOUNDARY` and `*CLOAD`. Plane elements with a section are expanded
+/// `*NORMAL`, rotations in `*BOUNDARY` and `*CLOAD`, and nodes that `*TRANSFORM`, `*EQUATION`,
+/// `*MPC` and `*RIGID BODY` name. Plane elements with a section are expanded
 /// where solids, shells, beams or trusses have one, too; beside axisymmetric ones their thickness
 /// is a 180th, as in CalculiX.
 ///
