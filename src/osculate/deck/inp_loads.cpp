@@ -138,6 +138,22 @@ void turn(const InpReading& r, const LoadLine& load, const std::string& on, int 
                 true);
 }
 
+/// Where CalculiX' vibrations about a state are those of other rotations.
+void tell_of_vibrations(const InpReading& r, const LoadLine& load, bool on_masses) {
+  const auto tell = [&](const char* what) {
+    r.m.notes.push_back(fmt::format("line {}: {}", load.line.at.line, what));
+  };
+  const auto vibrates = [](const Card& card) { return card.keyword == "FREQUENCY"; };
+  if (on_masses && std::ranges::any_of(r.m.deck.cards, vibrates))
+    tell(
+        "CENTRIF on masses softens vibrations about a state, as that on elements does; in CalculiX "
+        "it does not");
+  if (r.procedure.modes > 0)
+    tell(
+        "CENTRIF of a step with *FREQUENCY does not count in it: those of the steps before soften "
+        "its vibrations; in CalculiX this one does");
+}
+
 void read_centrifugal(const InpReading& r, const LoadLine& load) {
   const double speed = load.fields.real("the square of the angular velocity");
   std::array<double, 6> axis{};
@@ -150,6 +166,7 @@ void read_centrifugal(const InpReading& r, const LoadLine& load) {
   const std::string name = io::inp::element_set_name(load.elements);
   const std::vector<InpMass> masses = inp_masses(r.m, name);
   for (const InpMass& one : masses) turn(r, load, one.node, axis_number, speed);
+  tell_of_vibrations(r, load, !masses.empty());
   if (!masses.empty() && !r.m.sets.contains({SetKind::elements, io::inp::capitals(name)})) return;
   const std::string& on = set_of(r.m, load.line.at, name, {SetKind::elements});
   tell_of_several(r, load, on, axis_number);
