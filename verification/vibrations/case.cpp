@@ -86,6 +86,18 @@ void add_strip(const std::string& folder, CaseResult& result, int& missing) {
   result.rows.push_back({"strip: f1", all.at(0)[1], f1, Relation::equal, 5e-3, "Euler's beam"});
 }
 
+/// A bar that turns about its own axis and shears: w_n^2 = ((2 n - 1) pi / (2 L))^2 G / rho - W^2.
+void add_turning_bar(const std::string& folder, CaseResult& result, int& missing) {
+  const std::vector<Eigen::VectorXd> all =
+      frequencies(run_model(folder + "/turning.yaml", {}), missing);
+  for (int n = 0; n < 3; ++n) {
+    const double q = (2 * n + 1) * std::numbers::pi / 2, omega_squared = q * q * 50 - 50;
+    result.rows.push_back({"bar turning about its axis: f" + std::to_string(n + 1), all.at(0)[n],
+                           model::frequency(omega_squared), Relation::equal, 5e-5,
+                           "wave equation in a frame that turns"});
+  }
+}
+
 }  // namespace
 
 CaseResult vibrations(const CaseContext& context) {
@@ -95,6 +107,7 @@ CaseResult vibrations(const CaseContext& context) {
   add_masses(context.folder, result);
   add_free_block(context.folder, result, missing);
   add_strip(context.folder, result, missing);
+  add_turning_bar(context.folder, result, missing);
   result.rows.push_back({"vibrations that are missing", static_cast<double>(missing), 0,
                          Relation::equal, 0, "law of inertia"});
   return result;

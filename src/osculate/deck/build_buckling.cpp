@@ -54,6 +54,7 @@ void add_to_standing(const Step& step, model::Step& out) {
   if (step.about == ModesAbout::start) out.gravity.clear();
   for (model::DeadLoad& load : out.dead) above(load.ramp);
   for (model::PressureLoad& load : out.pressure) above(load.ramp);
+  for (model::CentrifugalLoad& load : out.centrifugal) above(load.ramp);
   for (model::PrescribedDof& p : out.prescribed) p.further = !p.hold;
 }
 

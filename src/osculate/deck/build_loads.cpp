@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <set>
+#include <span>
 
 #include "osculate/mesh/boundary.hpp"
 #include "osculate/model/bulk.hpp"
@@ -83,27 +86,33 @@ std::vector<std::pair<Dof, double>> traction_unit(const BuildContext<Dim>& c, co
   return unit;
 }
 
-template <int Dim>
-std::vector<std::pair<Dof, double>> body_force_unit(const BuildContext<Dim>& c, const Load& load,
-                                                    int direction, const Gone& gone) {
-  const mesh::Set& set = c.set(load.on);
+/// Calls visit(section, cell) for the cells of a set that have a section and are there.
+template <int Dim, class Visit>
+void visit_cells(const BuildContext<Dim>& c, const Name& on, const Gone& gone, const Visit& visit) {
   std::set<std::pair<Index, Index>> wanted;
-  for (const mesh::CellRef& ref : set.cells) wanted.emplace(ref.block, ref.cell);
-  std::vector<std::pair<Dof, double>> unit;
+  for (const mesh::CellRef& ref : c.set(on).cells) wanted.emplace(ref.block, ref.cell);
   bool any = false;
   for (const model::BasicBulkSection<Dim>& section : c.model().sections)
     for (const mesh::CellRef& ref : section.cells) {
       if (!wanted.contains({ref.block, ref.cell})) continue;
       any = true;
-      if (gone.contains({ref.block, ref.cell})) continue;
-      const mesh::Block& block = c.model().mesh.blocks[static_cast<std::size_t>(ref.block)];
-      const std::vector<double> weights = model::cell_weights(c.model(), section, ref);
-      for (std::size_t k = 0; k < weights.size(); ++k)
-        unit.emplace_back(Dim * block.cell(ref.cell)[k] + direction, weights[k]);
+      if (!gone.contains({ref.block, ref.cell})) visit(section, ref);
     }
   if (!any)
-    throw core::InputError(load.on.mark,
-                           fmt::format("set '{}' has no bulk cells with a section", load.on.value));
+    throw core::InputError(on.mark,
+                           fmt::format("set '{}' has no bulk cells with a section", on.value));
+}
+
+template <int Dim>
+std::vector<std::pair<Dof, double>> body_force_unit(const BuildContext<Dim>& c, const Load& load,
+                                                    int direction, const Gone& gone) {
+  std::vector<std::pair<Dof, double>> unit;
+  visit_cells(c, load.on, gone, [&](const auto& section, const mesh::CellRef& ref) {
+    const std::span<const Index> nodes = model::cell_nodes(c.model().mesh, ref).nodes;
+    const std::vector<double> weights = model::cell_weights(c.model(), section, ref);
+    for (std::size_t k = 0; k < weights.size(); ++k)
+      unit.emplace_back(Dim * nodes[k] + direction, weights[k]);
+  });
   return unit;
 }
 
@@ -130,47 +139,74 @@ std::vector<std::pair<Dof, double>> total_force_unit(const BuildContext<Dim>& c,
   return unit;
 }
 
-/// Centrifugal forces of the cells of a set, of the square 1 of the angular velocity.
-///
-/// Formula    f_i = rho sum_j M_ij (1 - e e^T) (X_j - X_0) , e along the axis, M = int N N dV
+/// Whether centrifugal forces act where bodies are, by whether their strains are finite.
+bool moves(const Load& load, bool finite) {
+  return load.places == LoadPlacesWord::deformed || finite;
+}
+
+/// The masses at the nodes of a set. A node of no cell is as the cells are.
 template <int Dim>
-std::vector<std::pair<Dof, double>> centrifugal_unit(const BuildContext<Dim>& c, const Load& load,
-                                                     const Gone& gone) {
+std::vector<model::CentrifugalLoad::Cell> turning_nodes(const BuildContext<Dim>& c,
+                                                        const Load& load) {
+  const std::set<Index> wanted(c.set(load.on).nodes.begin(), c.set(load.on).nodes.end());
+  const auto is_finite = [](const model::BasicBulkSection<Dim>& section) {
+    return section.section.kinematics == solid::Kinematics::finite;
+  };
+  const bool all = std::ranges::all_of(c.model().sections, is_finite);
+  std::vector<model::CentrifugalLoad::Cell> cells;
+  for (const model::PointMass& point : c.model().masses) {
+    if (!wanted.contains(point.node)) continue;
+    const Index of = c.section_of_node[static_cast<std::size_t>(point.node)];
+    const bool finite = of < 0 ? all : is_finite(c.model().sections[static_cast<std::size_t>(of)]);
+    cells.push_back(
+        {{point.node}, Eigen::MatrixXd::Constant(1, 1, point.mass), moves(load, finite)});
+  }
+  if (cells.empty())
+    throw core::InputError(
+        load.on.mark,
+        fmt::format("set '{}' has neither bulk cells with a section nor `masses`", load.on.value));
+  return cells;
+}
+
+template <int Dim>
+std::vector<model::CentrifugalLoad::Cell> turning_cells(const BuildContext<Dim>& c,
+                                                        const Load& load, const Gone& gone) {
+  const mesh::Set& set = c.set(load.on);
+  if (set.cells.empty() || set.dimension == 0) return turning_nodes(c, load);
+  std::vector<model::CentrifugalLoad::Cell> cells;
+  visit_cells(c, load.on, gone, [&](const auto& section, const mesh::CellRef& ref) {
+    const double density = material::density(section.section.law);
+    if (!(density > 0))
+      throw core::InputError(load.on.mark,
+                             fmt::format("the material of '{}' has no density", section.name));
+    const model::CellNodes cell = model::cell_nodes(c.model().mesh, ref);
+    const solid::NodeMass mass = solid::consistent_mass<Dim>(
+        section.section, cell.type, model::reference_of(c.model(), cell.nodes));
+    cells.push_back({{cell.nodes.begin(), cell.nodes.end()},
+                     density * mass,
+                     moves(load, section.section.kinematics == solid::Kinematics::finite)});
+  });
+  return cells;
+}
+
+/// Centrifugal forces of the square 1 of the angular velocity: at the undeformed places, and what
+/// it takes to have them elsewhere.
+template <int Dim>
+void begin_centrifugal(const BuildContext<Dim>& c, const Load& load, const Gone& gone,
+                       Channel& out) {
   const Vec3 axis = load.to - load.from;
   if (!(axis.norm() > 0)) throw core::InputError(load.mark, "the points of the axis coincide");
-  const Vec3 e = axis.normalized();
-  const mesh::Set& set = c.set(load.on);
-  std::set<std::pair<Index, Index>> wanted;
-  for (const mesh::CellRef& ref : set.cells) wanted.emplace(ref.block, ref.cell);
-  std::vector<std::pair<Dof, double>> unit;
-  bool any = false;
-  for (const model::BasicBulkSection<Dim>& section : c.model().sections)
-    for (const mesh::CellRef& ref : section.cells) {
-      if (!wanted.contains({ref.block, ref.cell})) continue;
-      any = true;
-      if (gone.contains({ref.block, ref.cell})) continue;
-      const double density = material::density(section.section.law);
-      if (!(density > 0))
-        throw core::InputError(load.on.mark,
-                               fmt::format("the material of '{}' has no density", section.name));
-      const model::CellNodes cell = model::cell_nodes(c.model().mesh, ref);
-      const solid::NodeMass mass = solid::consistent_mass<Dim>(
-          section.section, cell.type, model::reference_of(c.model(), cell.nodes));
-      for (std::size_t i = 0; i < cell.nodes.size(); ++i) {
-        Vec3 force = Vec3::Zero();
-        for (std::size_t j = 0; j < cell.nodes.size(); ++j) {
-          const Vec3 arm =
-              c.model().mesh.nodes[static_cast<std::size_t>(cell.nodes[j])] - load.from;
-          force += density * mass(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) *
-                   (arm - arm.dot(e) * e);
-        }
-        for (int k = 0; k < Dim; ++k) unit.emplace_back(Dim * cell.nodes[i] + k, force[k]);
-      }
-    }
-  if (!any)
-    throw core::InputError(load.on.mark,
-                           fmt::format("set '{}' has no bulk cells with a section", load.on.value));
-  return unit;
+  auto cells =
+      std::make_shared<std::vector<model::CentrifugalLoad::Cell>>(turning_cells(c, load, gone));
+  out.centrifugal.point = load.from;
+  out.centrifugal.axis = axis.normalized();
+  model::BasicBulkBlock<Dim> block;
+  for (const model::CentrifugalLoad::Cell& cell : *cells) {
+    model::centrifugal_block(c.model(), out.centrifugal, cell, nullptr, block);
+    for (int k = 0; k < block.dof_count; ++k)
+      out.unit.emplace_back(block.dofs[static_cast<std::size_t>(k)], block.result.force[k]);
+  }
+  if (load.places != LoadPlacesWord::undeformed) out.centrifugal.cells = std::move(cells);
 }
 
 }  // namespace
@@ -208,7 +244,7 @@ Channel new_channel(const BuildContext<Dim>& c, int kind, const Load& load, int 
   if (kind == LoadKind::total_force) channel.unit = total_force_unit(c, load, i, gone);
   if (kind == LoadKind::traction) channel.unit = traction_unit(c, load, i, gone);
   if (kind == LoadKind::body_force) channel.unit = body_force_unit(c, load, i, gone);
-  if (kind == LoadKind::centrifugal) channel.unit = centrifugal_unit(c, load, gone);
+  if (kind == LoadKind::centrifugal) begin_centrifugal(c, load, gone, channel);
   if (kind == LoadKind::pressure) channel.facets = loaded_sides(c, load.on, gone);
   std::erase_if(channel.unit, [&](const auto& entry) {
     return entry.first < Dim * static_cast<Dof>(c.model().reference.size()) &&
@@ -217,6 +253,17 @@ Channel new_channel(const BuildContext<Dim>& c, int kind, const Load& load, int 
   channel.resultant = channel.facets.empty() ? resultant(c.model(), channel.unit)
                                              : resultant(c.model(), channel.facets);
   return channel;
+}
+
+void act(const Channel& channel, const model::Ramp& ramp, model::Step& out) {
+  if (channel.centrifugal.cells) {
+    out.centrifugal.push_back(channel.centrifugal);
+    out.centrifugal.back().ramp = ramp;
+  } else if (channel.facets.empty()) {
+    out.dead.push_back({channel.unit, ramp});
+  } else {
+    out.pressure.push_back({channel.facets, ramp});
+  }
 }
 
 template Channel new_channel(const BuildContext<2>&, int, const Load&, int, std::size_t);

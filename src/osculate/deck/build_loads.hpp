@@ -23,8 +23,9 @@ struct Channel {
   double value = 0;  ///< at the end of the last step
   std::vector<std::pair<model::Dof, double>> unit;
   std::vector<model::PressureLoad::Facet> facets;
-  Resultant resultant;  ///< of the value 1
-  Load load{};          ///< as it was given first
+  model::CentrifugalLoad centrifugal{};  ///< without cells: those of `unit` do not move
+  Resultant resultant;                   ///< of the value 1
+  Load load{};                           ///< as it was given first
 };
 
 struct LoadKind {
@@ -56,5 +57,8 @@ enum class LoadPart { real, imaginary };
 template <int Dim>
 [[nodiscard]] Channel new_channel(const BuildContext<Dim>& c, int kind, const Load& load, int i,
                                   std::size_t step);
+
+/// Adds the load to those of a step.
+void act(const Channel& channel, const model::Ramp& ramp, model::Step& out);
 
 }  // namespace osculate::deck

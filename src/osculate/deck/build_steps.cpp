@@ -182,10 +182,7 @@ void apply_swinging_loads(const BuildContext<Dim>& c, const deck::Step& step, Ru
         const Given given{{size, size, amplitude_of(c, load.amplitude)},
                           load.amplitude ? load.amplitude->value : std::string{}};
         add_total(channel_key(kind, load, i), channel, &given, totals);
-        if (channel.facets.empty())
-          out.dead.push_back({channel.unit, given.ramp});
-        else
-          out.pressure.push_back({channel.facets, given.ramp});
+        act(channel, given.ramp, out);
       }
   for (LoadTotal& total : totals) {
     if (part == LoadPart::imaginary) total.values += " (imaginary part)";
@@ -217,8 +214,13 @@ void apply_loads(const BuildContext<Dim>& c, const deck::Step& step, Running& ru
         const std::optional<Number>& value = load.values[static_cast<std::size_t>(i)];
         if (!value) continue;
         const ChannelKey key = channel_key(kind, load, i);
-        if (!running.channels.contains(key))
-          running.channels.emplace(key, new_channel(c, kind, load, i, c.model().steps.size()));
+        const auto known = running.channels.find(key);
+        if (known == running.channels.end() || known->second.load.places != load.places) {
+          const double value = known == running.channels.end() ? 0 : known->second.value;
+          Channel& channel = running.channels[key];
+          channel = new_channel(c, kind, load, i, c.model().steps.size());
+          channel.value = value;
+        }
         if (kind == LoadKind::force && c.rigid_index.contains(load.on.value))
           running.prescribed.erase(
               body_dof(c.model(), c.rigid_index.at(load.on.value), static_cast<Component>(i)));
@@ -234,10 +236,7 @@ void apply_loads(const BuildContext<Dim>& c, const deck::Step& step, Running& ru
               c.built.loads.back());
     const model::Ramp r =
         given != givens.end() ? given->second.ramp : model::Ramp{channel.value, channel.value, {}};
-    if (channel.facets.empty())
-      out.dead.push_back({channel.unit, r});
-    else
-      out.pressure.push_back({channel.facets, r});
+    act(channel, r, out);
     channel.value = r.value(1.0);
   }
 }
@@ -293,6 +292,7 @@ model::Step step_without_loads(const BuildContext<Dim>& c, const deck::Step& ste
 template <int Dim>
 void unload(const BuildContext<Dim>& c, model::Step& step) {
   step.pressure.clear();
+  step.centrifugal.clear();
   step.dead.clear();
   step.gravity.clear();
   step.temperature = {c.model().initial_temperature, {}};

@@ -106,8 +106,8 @@ void read_gravity(const InpReading& r, const LoadLine& load, Conditions& body_fo
 
 std::set<std::pair<Index, Index>> cells_of_set(const InpModel& m, const std::string& set) {
   std::set<std::pair<Index, Index>> cells;
-  for (const mesh::CellRef& ref : m.mesh.mesh.find_set(set)->cells)
-    cells.insert({ref.block, ref.cell});
+  if (const mesh::Set* const known = m.mesh.mesh.find_set(set))  // else the node of a mass
+    for (const mesh::CellRef& ref : known->cells) cells.insert({ref.block, ref.cell});
   return cells;
 }
 
@@ -127,15 +127,33 @@ void tell_of_several(const InpReading& r, const LoadLine& load, const std::strin
   }
 }
 
-/// CalculiX takes them where the bodies are, and their derivative softens vibrations.
-void tell_of_places(const InpReading& r, const LoadLine& load) {
+/// CENTRIF of a set about one of the axes; that of a step before about another one is replaced.
+void turn(const InpReading& r, const LoadLine& load, const std::string& on, int axis,
+          double speed_squared) {
+  for (auto& [key, value] : r.acting.parts[0].centrifugal)
+    if (key.first == on && key.second != axis && !value.fresh) {
+      value.size = 0;
+      value.amplitude.clear();
+      value.released = true;
+    }
+  set_condition(r.m, r.acting.parts[0].centrifugal, {on, axis}, speed_squared, load.said, load.line,
+                true);
+}
+
+/// Where CalculiX' vibrations about a state are those of other rotations.
+void tell_of_vibrations(const InpReading& r, const LoadLine& load, bool on_masses) {
+  const auto tell = [&](const char* what) {
+    r.m.notes.push_back(fmt::format("line {}: {}", load.line.at.line, what));
+  };
   const auto vibrates = [](const Card& card) { return card.keyword == "FREQUENCY"; };
-  if (!r.m.finite && std::ranges::none_of(r.m.deck.cards, vibrates)) return;
-  r.m.notes.push_back(
-      fmt::format("line {}: CENTRIF acts at the undeformed places: it does not grow where a body "
-                  "moves outwards, "
-                  "nor soften vibrations, as it does in CalculiX",
-                  load.line.at.line));
+  if (on_masses && std::ranges::any_of(r.m.deck.cards, vibrates))
+    tell(
+        "CENTRIF on masses softens vibrations about a state, as that on elements does; in CalculiX "
+        "it does not");
+  if (r.procedure.modes > 0)
+    tell(
+        "CENTRIF of a step with *FREQUENCY does not count in it: those of the steps before soften "
+        "its vibrations; in CalculiX this one does");
 }
 
 void read_centrifugal(const InpReading& r, const LoadLine& load) {
@@ -146,19 +164,15 @@ void read_centrifugal(const InpReading& r, const LoadLine& load) {
   std::vector<std::array<double, 6>>& axes = r.acting.axes;
   auto known = std::find(axes.begin(), axes.end(), axis);
   if (known == axes.end()) known = axes.insert(axes.end(), axis);
-  const std::string& on =
-      set_of(r.m, load.line.at, io::inp::element_set_name(load.elements), {SetKind::elements});
   const int axis_number = static_cast<int>(known - axes.begin());
-  for (auto& [key, value] : r.acting.parts[0].centrifugal)  // that of a step before is replaced
-    if (key.first == on && key.second != axis_number && !value.fresh) {
-      value.size = 0;
-      value.amplitude.clear();
-      value.released = true;
-    }
+  const std::string name = io::inp::element_set_name(load.elements);
+  const std::vector<InpMass> masses = inp_masses(r.m, name);
+  for (const InpMass& one : masses) turn(r, load, one.node, axis_number, speed);
+  tell_of_vibrations(r, load, !masses.empty());
+  if (!masses.empty() && !r.m.sets.contains({SetKind::elements, io::inp::capitals(name)})) return;
+  const std::string& on = set_of(r.m, load.line.at, name, {SetKind::elements});
   tell_of_several(r, load, on, axis_number);
-  tell_of_places(r, load);
-  set_condition(r.m, r.acting.parts[0].centrifugal, {on, axis_number}, speed, load.said, load.line,
-                true);
+  turn(r, load, on, axis_number, speed);
 }
 
 /// The one thickness of shells, whose edges are faces of solids.

@@ -247,7 +247,8 @@ BoundKey<Step> centrifugal_key() {
         .otherwise(std::move(otherwise));
   };
   const BoundKeys<Load> keys(
-      {on_key<Load>("Set of bulk cells, whose material has a density.", "disc"),
+      {on_key<Load>("Set of bulk cells, whose material has a density, or of nodes with `masses`.",
+                    "disc"),
        {required("speed_squared", number("Square of the angular velocity at the end of the step.")
                                       .in("radians^2/time^2")
                                       .at_least(0)
@@ -256,14 +257,21 @@ BoundKey<Step> centrifugal_key() {
        may(&Load::from, "from", place("A point of the axis.", "[0, 0, 0]")),
        {optional("to", place("Another one.", "[0, 0, 1]")),
         [](Load& load, const Value& v) { load.to = place_of(v); }},
+       may(&Load::places, "places",
+           choice("Where they act.",
+                  {word("automatic", LoadPlacesWord::automatic,
+                        "where bodies of finite strain are, at the undeformed places of others; "
+                        "where all are in vibrations about a state"),
+                   word("deformed", LoadPlacesWord::deformed, "where bodies are"),
+                   word("undeformed", LoadPlacesWord::undeformed, "where they were at first")})
+               .otherwise("automatic")
+               .such_as("deformed")),
        amplitude_key(),
        phase_key()});
-  return {optional("centrifugal",
-                   list("Centrifugal forces of bodies that turn about an axis, at their undeformed "
-                        "places.",
-                        keys.spec("One centrifugal load."))
-                       .otherwise("[]")
-                       .such_as("[{on: disc, speed_squared: 1e6}]")),
+  return {optional("centrifugal", list("Centrifugal forces of bodies that turn about an axis.",
+                                       keys.spec("One centrifugal load."))
+                                      .otherwise("[]")
+                                      .such_as("[{on: disc, speed_squared: 1e6}]")),
           [keys](Step& s, const Value& v) { s.centrifugal = keys.read_all(v); }};
 }
 

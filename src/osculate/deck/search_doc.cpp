@@ -37,7 +37,7 @@ constexpr std::array<Synonym, 44> synonyms{{
     {"gasket", no},
     {"local-axes transform coordinate-system inclined cylindrical-axes", "axes"},
     {"cyclic-symmetry sector periodic", "cyclic_symmetry (docs/constraints.md)"},
-    {"centrifugal spinning rotating", "steps.centrifugal"},
+    {"centrifugal spinning rotating softening", "steps.centrifugal"},
     {"heat conduction", no},
     {"thermal temperature cte",
      "materials.NAME.expansion, steps.temperature, initial_temperature (no heat flow)"},

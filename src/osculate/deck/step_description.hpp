@@ -18,6 +18,11 @@ struct Amplitude {
   std::vector<std::pair<double, double>> points;
 };
 
+/// Where centrifugal forces act: at the places that bodies have come to or at the undeformed ones;
+/// `automatic`: at the former of bodies of finite strain, and of all in small motions about a
+/// state.
+enum class LoadPlacesWord { automatic, deformed, undeformed };
+
 /// A load or motion of a set at the end of the step; how many of `values` are used depends on the
 /// kind: motions and forces fx fy fz mx my mz are indexed by Component, pressure p, traction tx ty
 /// tz, body force fx fy fz. Absent ones are not touched.
@@ -26,8 +31,9 @@ struct Load {
   Name on;
   std::array<std::optional<Number>, component_count> values;
   std::optional<Name> amplitude;
-  std::optional<Number> phase;      ///< degrees, of loads that swing
-  Vec3 from{0, 0, 0}, to{0, 0, 1};  ///< points of the axis, of centrifugal loads
+  std::optional<Number> phase;                        ///< degrees, of loads that swing
+  Vec3 from{0, 0, 0}, to{0, 0, 1};                    ///< points of the axis, of centrifugal loads
+  LoadPlacesWord places = LoadPlacesWord::automatic;  ///< of these, too
 };
 using Prescription = Load;
 struct Release {

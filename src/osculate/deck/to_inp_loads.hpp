@@ -365,13 +365,29 @@ class LoadWriter {
     }
     for (const Load& load : step.centrifugal) {
       here.insert(&load);
-      const Vec3 along = load.to - load.from;
-      out += spread(
-          load, mesh_.elements(load.on) + ", CENTRIF", load.values[0]->value,
-          fmt::format(", {}, {}, {}, {}, {}, {}", exact(load.from[0]), exact(load.from[1]),
-                      exact(load.from[2]), exact(along[0]), exact(along[1]), exact(along[2])));
+      out += turn(load);
     }
     return out + still_spread(here);
+  }
+
+  /// Where CalculiX has it act is `automatic`.
+  std::string turn(const Load& load) {
+    const bool as_it_is =
+        load.places == (mesh_.finite() ? LoadPlacesWord::deformed : LoadPlacesWord::undeformed);
+    const bool vibrates =
+        std::ranges::any_of(d_.steps, [](const Step& one) { return one.modes.has_value(); });
+    if (load.places != LoadPlacesWord::automatic && (!as_it_is || (vibrates && !mesh_.finite())))
+      throw core::InputError(load.mark, "centrifugal forces are written with `places: automatic`");
+    const auto of_masses = std::ranges::find_if(
+        d_.masses, [&](const PointMass& one) { return one.on.value == load.on.value; });
+    const std::string on = of_masses == d_.masses.end()
+                               ? mesh_.elements(load.on)
+                               : mass_name(static_cast<std::size_t>(of_masses - d_.masses.begin()));
+    const Vec3 along = load.to - load.from;
+    return spread(
+        load, on + ", CENTRIF", load.values[0]->value,
+        fmt::format(", {}, {}, {}, {}, {}, {}", exact(load.from[0]), exact(load.from[1]),
+                    exact(load.from[2]), exact(along[0]), exact(along[1]), exact(along[2])));
   }
 
   /// Of all that has a density, and of masses.

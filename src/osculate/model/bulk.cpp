@@ -139,6 +139,33 @@ void pressure_block(const BasicModel<Dim>& model, const PressureLoad::Facet& fac
 }
 
 template <int Dim>
+void centrifugal_block(const BasicModel<Dim>& model, const CentrifugalLoad& load,
+                       const CentrifugalLoad::Cell& cell, const Eigen::VectorXd* u,
+                       BasicBulkBlock<Dim>& out) {
+  const std::span<const Index> nodes(cell.nodes);
+  set_dofs(nodes, out);
+  const Mat<3, 3> across = Mat<3, 3>::Identity() - load.axis * load.axis.transpose();
+  const auto n = static_cast<Eigen::Index>(nodes.size());
+  Eigen::Matrix<double, Dim, Eigen::Dynamic, 0, Dim, solid::max_nodes<Dim>> arms(Dim, n);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const Index node = nodes[static_cast<std::size_t>(j)];
+    Vec3 arm = -load.point;
+    arm.head<Dim>() += model.reference[static_cast<std::size_t>(node)];
+    if (u) arm.head<Dim>() += u->template segment<Dim>(Dim * node);
+    arms.col(j) = (across * arm).template head<Dim>();
+  }
+  out.result.force.resize(Dim * n);
+  for (Eigen::Index i = 0; i < n; ++i)
+    out.result.force.template segment<Dim>(Dim * i) = arms * cell.mass.col(i);
+  if (!u) return;
+  out.result.tangent.resize(Dim * n, Dim * n);
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = 0; j < n; ++j)
+      out.result.tangent.template block<Dim, Dim>(Dim * i, Dim * j) =
+          cell.mass(i, j) * across.topLeftCorner<Dim, Dim>();
+}
+
+template <int Dim>
 std::vector<double> cell_weights(const BasicModel<Dim>& model, const BasicBulkSection<Dim>& section,
                                  const mesh::CellRef& ref) {
   const CellNodes cell = cell_nodes(model.mesh, ref);
@@ -213,6 +240,10 @@ template void pressure_block(const Model&, const PressureLoad::Facet&, const Eig
                              double, BulkBlock&);
 template void pressure_block(const Model3&, const PressureLoad::Facet&, const Eigen::VectorXd&,
                              double, BulkBlock3&);
+template void centrifugal_block(const Model&, const CentrifugalLoad&, const CentrifugalLoad::Cell&,
+                                const Eigen::VectorXd*, BulkBlock&);
+template void centrifugal_block(const Model3&, const CentrifugalLoad&, const CentrifugalLoad::Cell&,
+                                const Eigen::VectorXd*, BulkBlock3&);
 template std::vector<double> cell_weights(const Model&, const BulkSection&, const mesh::CellRef&);
 template std::vector<double> cell_weights(const Model3&, const BulkSection3&, const mesh::CellRef&);
 template std::vector<double> side_weights(const Model&, const solid::Section<2>&, cell::CellType,

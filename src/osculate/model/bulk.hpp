@@ -55,6 +55,15 @@ template <int Dim>
 void pressure_block(const BasicModel<Dim>& model, const PressureLoad::Facet& facet,
                     const Eigen::VectorXd& u, double pressure, BasicBulkBlock<Dim>& out);
 
+/// Centrifugal forces of a cell at the displacements `u` (null: none), of the square 1 of the
+/// angular velocity, and with `u` their derivative, which is symmetric.
+///
+/// Formula    CentrifugalLoad
+template <int Dim>
+void centrifugal_block(const BasicModel<Dim>& model, const CentrifugalLoad& load,
+                       const CentrifugalLoad::Cell& cell, const Eigen::VectorXd* u,
+                       BasicBulkBlock<Dim>& out);
+
 /// Share of each node in a unit body force over a cell.
 template <int Dim>
 [[nodiscard]] std::vector<double> cell_weights(const BasicModel<Dim>& model,

@@ -36,9 +36,13 @@ std::vector<Index> changing_unknowns(const BasicModel<Dim>& model, const BasicDo
                        !model.node_constraints.empty() || marks.of_contact || marks.of_cells;
   if (!changes) return {};  // one iteration is all it takes
   mark_connectors(model, marks);
-  for (const Step& step : model.steps)
+  for (const Step& step : model.steps) {
     for (const PressureLoad& load : step.pressure)
       for (const PressureLoad::Facet& facet : load.facets) marks.nodes(facet.nodes);
+    for (const CentrifugalLoad& load : step.centrifugal)
+      for (const CentrifugalLoad::Cell& cell : *load.cells)
+        if (cell.moves) marks.nodes(cell.nodes);
+  }
   for (Index b = 0; b < dofs.bodies(); ++b)
     for (int k = 0; k < body::motions<Dim>; ++k) marks.dof(dofs.body_dof(b, k));
   std::vector<Index> out;

@@ -216,7 +216,8 @@ std::string more_increments(const Step& step, const BasicFailure<Dim>& f) {
 }
 
 std::string against_instability(const Step& step) {
-  const bool loaded = !step.dead.empty() || !step.pressure.empty() || !step.gravity.empty();
+  const bool loaded = !step.dead.empty() || !step.pressure.empty() || !step.centrifugal.empty() ||
+                      !step.gravity.empty();
   if (loaded)
     return fmt::format(
         "prescribe a displacement instead of the load in step '{}': the equilibrium path turns "

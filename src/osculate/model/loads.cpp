@@ -40,6 +40,7 @@ std::vector<double> corners(const Step& step) {
   for (const PrescribedDof& p : step.prescribed) add_corners(p.ramp, out);
   for (const DeadLoad& load : step.dead) add_corners(load.ramp, out);
   for (const PressureLoad& load : step.pressure) add_corners(load.ramp, out);
+  for (const CentrifugalLoad& load : step.centrifugal) add_corners(load.ramp, out);
   for (const Temperatures::Change& change : step.temperature.changes)
     add_corners({0, 0, change.amplitude}, out);
   std::sort(out.begin(), out.end());

@@ -1,4 +1,5 @@
 #pragma once
+#include <Eigen/Core>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -51,6 +52,30 @@ struct PressureLoad {
   std::vector<Facet> facets;
   Ramp ramp;
 };
+
+/// Forces of bodies that turn about an axis, at the places that they have come to: they grow as
+/// these move outwards. `ramp`: the square of the angular velocity.
+///
+/// Formula    f_i = w^2 sum_j M_ij P (X_j + u_j - p) , df_i/du_j = w^2 M_ij P , P = 1 - e e^T ,
+///            M_ij = int rho N_i N_j dV , w^2 the ramp, p a point of the axis, e along it
+/// Sign       their part of the stiffness, -w^2 M P, is symmetric and softens
+/// Tested by  tests/unit/deck/test_centrifugal.cpp, verification/spin_softening
+struct CentrifugalLoad {
+  struct Cell {
+    std::vector<Index> nodes;  ///< of a cell; or one with a mass
+    Eigen::MatrixXd mass;      ///< by pairs of them
+    bool moves = true;         ///< else u counts in small motions about a state alone
+  };
+  std::shared_ptr<const std::vector<Cell>> cells;
+  Vec3 point = Vec3::Zero(), axis = Vec3::UnitZ();
+  Ramp ramp;
+};
+
+/// Which places loads that follow bodies act at.
+///
+/// strains  of bodies of small strain, and of loads that are told to: the undeformed ones
+/// state    those of the state, in small motions about it
+enum class LoadPlaces { strains, state };
 
 /// Which impacts increments in time end at.
 ///
@@ -141,6 +166,7 @@ struct Step {
   std::vector<PrescribedDof> prescribed;
   std::vector<DeadLoad> dead;
   std::vector<PressureLoad> pressure;
+  std::vector<CentrifugalLoad> centrifugal{};
   std::optional<Dynamics> dynamics;          ///< empty: without inertia
   std::optional<Frequencies> frequencies{};  ///< nothing moves: vibrations are looked for
   std::optional<BucklingSearch> buckling{};  ///< nothing moves: critical loads are looked for

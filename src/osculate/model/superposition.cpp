@@ -44,6 +44,7 @@ std::vector<double> pieces(const Step& step, double from, double to) {
   };
   for (const DeadLoad& load : step.dead) add(load.ramp);
   for (const PressureLoad& load : step.pressure) add(load.ramp);
+  for (const CentrifugalLoad& load : step.centrifugal) add(load.ramp);
   for (const PrescribedDof& p : step.prescribed) add(p.ramp);
   std::ranges::sort(ends);
   ends.erase(std::unique(ends.begin(), ends.end()), ends.end());

@@ -45,7 +45,7 @@ Eigen::VectorXd BasicSystem<Dim>::Impl::added_external(const State& state) {
   for (const double fraction : {0.0, 1.0}) {
     last.clear(dofs.dofs(), constraints.count());
     Assembly<Dim> to = assembly();
-    loads.add_pressure(step, state, fraction, to);
+    loads.add_following(step, state, fraction, LoadPlaces::strains, to);
     loads.add_dead_loads(step, fraction, last.forces);
     loads.add_gravity(step, fraction, nullptr, last.forces);
     if (fraction == 0) before = last.forces.external;
@@ -89,6 +89,10 @@ Buckling BasicSystem<Dim>::buckling(const State& state, int count, la::LinearSol
   s.builder.clear();
   Assembly<Dim> to = s.assembly(true);
   s.bulk.add_stresses(now, &then, to);
+  for (const double fraction : {0.0, 1.0}) {
+    to.share = fraction > 0 ? 1 : -1;
+    s.loads.add_centrifugal(s.step, state, fraction, LoadPlaces::strains, to);
+  }
   if (!s.model.rigid.empty()) {
     s.last.forces.external = external;
     turn_moments(s.model, state, true, to, SmallRotations::turn);

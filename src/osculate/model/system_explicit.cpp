@@ -27,7 +27,8 @@ BasicSystem<Dim>::Impl::Explicit::Explicit(Impl& s)
       active_set(s.model.pairs.size()),
       turning(s.model.rigid.size()) {
   const Eigen::Index n = system.dofs.dofs();
-  loaded = !s.step.pressure.empty() || !s.step.dead.empty() || !s.step.gravity.empty();
+  loaded = !s.step.pressure.empty() || !s.step.centrifugal.empty() || !s.step.dead.empty() ||
+           !s.step.gravity.empty();
   for (Vector* const v : {&past_internal, &past_contact, &past_external, &past_damping})
     v->setZero(n);
   x.resize(system.model.reference.size());
@@ -270,10 +271,10 @@ void BasicSystem<Dim>::Impl::Explicit::add_loads(double fraction) {
   if (!loaded) return;
   Vector& external = system.last.forces.external;
   external.setZero();
-  if (!system.step.pressure.empty()) {
+  if (!system.step.pressure.empty() || !system.step.centrifugal.empty()) {
     now.u = motion.position.head(now.u.size());
     Assembly<Dim> to = system.assembly();
-    system.loads.add_pressure(system.step, now, fraction, to);
+    system.loads.add_following(system.step, now, fraction, LoadPlaces::strains, to);
   }
   system.loads.add_dead_loads(system.step, fraction, system.last.forces);
   if (system.step.gravity.empty()) return;

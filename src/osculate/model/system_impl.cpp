@@ -240,8 +240,8 @@ bool BasicSystem<Dim>::Impl::add_bodies(const State& committed, const State& now
 template <int Dim>
 void BasicSystem<Dim>::Impl::add_loads(const State& now, double fraction, bool with_tangent,
                                        Assembly<Dim>& to) {
-  if (on(Term::pressure)) loads.add_pressure(step, now, fraction, to);
-  if (pressures_turn && with_tangent) loads.add_turning_pressure(step, fraction, to);
+  if (on(Term::pressure)) loads.add_following(step, now, fraction, places, to);
+  if (places == LoadPlaces::state && with_tangent) loads.add_turning_pressure(step, fraction, to);
   loads.add_dead_loads(step, fraction, last.forces);
   loads.add_gravity(step, fraction, motion ? &motion->inertia : nullptr, last.forces);
 }

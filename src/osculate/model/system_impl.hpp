@@ -39,11 +39,11 @@ struct BasicSystem<Dim>::Impl {
   la::Symmetry symmetry;
   bool nearly_symmetric;
   Evaluated<Dim> last;
-  std::deque<ContactStates> recent;  ///< of the running attempt
-  double assembly_seconds = 0;       ///< beside those of the terms
-  int built = 0;                     ///< how often anew
-  bool with_stresses = false;        ///< tangents have what stresses do in small strain
-  bool pressures_turn = false;       ///< and what pressures do there
+  std::deque<ContactStates> recent;         ///< of the running attempt
+  double assembly_seconds = 0;              ///< beside those of the terms
+  int built = 0;                            ///< how often anew
+  bool with_stresses = false;               ///< tangents have what stresses do in small strain
+  LoadPlaces places = LoadPlaces::strains;  ///< where loads act that follow bodies
   // The running step.
   Step step;
   std::vector<bool> touched;    ///< by pair, in explicit time integration

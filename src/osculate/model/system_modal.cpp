@@ -11,7 +11,7 @@ Eigen::VectorXd BasicSystem<Dim>::forces_on(const Vibrations& modes, const State
   const std::vector<Vec<Dim>> x = s.positions(about.u);
   s.assembler.set_configuration(x, about.rigid);
   Assembly<Dim> to = s.assembly();
-  s.loads.add_pressure(s.step, about, fraction, to);
+  s.loads.add_following(s.step, about, fraction, LoadPlaces::state, to);
   s.loads.add_dead_loads(s.step, fraction, s.last.forces);
   s.loads.add_gravity(s.step, fraction, nullptr, s.last.forces);
   turn_moments(s.model, about, false, to);

@@ -101,9 +101,10 @@ void BasicSystem<Dim>::Impl::predict_about(const State& state, double fraction, 
   contact.friction = Prediction::sticking;
   recent.clear();
   with_stresses = true;
-  pressures_turn = turn;
+  places = turn ? LoadPlaces::state : LoadPlaces::strains;
   assemble(state, {state}, fraction, true, Pass::predict, out);
-  with_stresses = pressures_turn = false;
+  with_stresses = false;
+  places = LoadPlaces::strains;
 }
 
 template <int Dim>

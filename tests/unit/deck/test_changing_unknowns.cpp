@@ -40,12 +40,27 @@ solver: {tolerance: {residual: 1.0e-11}}
 const std::string linear = "{linear_elastic: {E: 200, nu: 0.3}}";
 const std::string friction = "friction: {coulomb: {mu: 0.3}}";
 
+/// A body of small strain beside them, which turns: its forces grow as it moves.
+std::string beside_a_body_that_turns(std::string text) {
+  text = edited(text, "    up: {box",
+                "    ear: {box: {x: [5, 6], y: [0, 1], elements: [3, 3]}}\n    up: {box");
+  text = edited(text, "materials: {",
+                "materials: {e: {linear_elastic: {E: 50, nu: 0.3, density: 1}}, ");
+  text = edited(text, "sections: [", "sections: [{on: ear, material: e, element: plane_strain}, ");
+  return edited(
+      text, "press, increments: 2, prescribe: [",
+      "press, increments: 2, centrifugal: [{on: ear, speed_squared: 2, places: deformed}], "
+      "prescribe: [{on: ear.left, ux: 0, uy: 0}, ");
+}
+
 std::vector<std::string> models() {
-  return {blocks(linear, "normal: {penalty: 1.0e4}"), blocks(linear, friction),
+  return {blocks(linear, "normal: {penalty: 1.0e4}"),
+          blocks(linear, friction),
           blocks(linear, friction + ", sampling: mortar, enforcement: lagrange_multiplier"),
           blocks(linear, friction + ", enforcement: augmented_lagrange"),
           blocks(linear, "normal: {penalty: 1.0e4}",
-                 "springs: [{between: [low.top_left, up.bottom_left], stiffness: 3}]")};
+                 "springs: [{between: [low.top_left, up.bottom_left], stiffness: 3}]"),
+          beside_a_body_that_turns(blocks(linear, friction))};
 }
 
 /// Values of the tangent by row and column.

@@ -1,5 +1,6 @@
 // Springs, dampers, gaps and masses of decks.
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 
 #include "inp_run_test.hpp"
 #include "osculate/deck/inp_translate.hpp"
@@ -54,6 +55,29 @@ TEST(InpSprings, SetsMayHaveMassesBesideCells) {
             std::string::npos);
   EXPECT_NE(fault(cube + mass + "*ELSET, ELSET=EALL\n1, 53\n").find("element 53 does not exist"),
             std::string::npos);
+}
+
+/// CENTRIF acts on masses, too: at their undeformed places, or with NLGEOM where they are.
+TEST(InpSprings, CentrifugalForcesOfMasses) {
+  const std::string mass =
+      "*ELEMENT, TYPE=SPRING1, ELSET=B\n3, 22\n*SPRING, ELSET=B\n1\n40.\n"
+      "*ELEMENT, TYPE=MASS, ELSET=M\n5, 22\n*MASS, ELSET=M\n2.\n";
+  const std::string turn = "*DLOAD\nM, CENTRIF, 5., 0., 0., 0., 0., 0., 1.\n";
+  EXPECT_NEAR(run_deck(cube + mass + held + step(turn)).displacement(22).x(), 0.25, 1e-12);
+  EXPECT_NEAR(run_deck(cube + mass + held + step(turn, ", NLGEOM")).displacement(22).x(), 1.0 / 3,
+              1e-9);
+  const auto notes = [&](const std::string& first, const std::string& second) {
+    std::string all;
+    for (const std::string& note :
+         translate_deck(cube + mass + held + step(first) + "*STEP, PERTURBATION\n*FREQUENCY\n1\n" +
+                            second + "*END STEP\n",
+                        "d.inp")
+             .notes)
+      all += note;
+    return all;
+  };
+  EXPECT_THAT(notes(turn, ""), ::testing::HasSubstr("in CalculiX it does not"));
+  EXPECT_THAT(notes("", turn), ::testing::HasSubstr("does not count in it"));
 }
 
 /// Along the line between nodes, in directions of one and of two nodes, by a table.

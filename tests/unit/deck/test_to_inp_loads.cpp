@@ -202,5 +202,21 @@ TEST(ToInpLoads, ConditionsOfNodesKeepSmallStrains) {
   EXPECT_THAT(expect_same_steps(loaded_columns(first_step + load), 1), Not(HasSubstr("NLGEOM")));
 }
 
+/// Also on masses. Where they act follows from NLGEOM there.
+TEST(ToInpLoads, CentrifugalForces) {
+  const std::string mass = "masses: [{on: b.top_front_left, mass: 5}]\n";
+  const auto turning = [&](const std::string& more) {
+    return loaded_columns(first_step + "centrifugal: [{on: a, speed_squared: 2, from: [1, 0, 0]" +
+                              more + "}, {on: b.top_front_left, speed_squared: 3}]}\n",
+                          mass);
+  };
+  EXPECT_THAT(expect_same_steps(turning(""), 1), HasSubstr("mass_1, CENTRIF, 3, 0, 0, 0, 0, 0, 1"));
+  (void)expect_same_steps(turning(", places: undeformed"), 1);
+  EXPECT_THAT(refusal_of_loads(turning(", places: deformed")),
+              HasSubstr("centrifugal forces are written with `places: automatic`"));
+  EXPECT_THAT(refusal_of_loads(turning(", places: undeformed") + "  - {name: m, modes: 1}\n"),
+              HasSubstr("centrifugal forces are written with `places: automatic`"));
+}
+
 }  // namespace
 }  // namespace osculate::deck

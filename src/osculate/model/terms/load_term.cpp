@@ -45,6 +45,27 @@ void LoadTerm<Dim>::add_turning_pressure(const Step& step, double fraction,
 }
 
 template <int Dim>
+void LoadTerm<Dim>::add_centrifugal(const Step& step, const BasicState<Dim>& trial, double fraction,
+                                    LoadPlaces places, Assembly<Dim>& to) const {
+  BasicBulkBlock<Dim> block;
+  for (const CentrifugalLoad& load : step.centrifugal) {
+    const double speed_squared = load.ramp.value(fraction);
+    if (speed_squared == 0.0) continue;
+    for (const CentrifugalLoad::Cell& cell : *load.cells) {
+      const bool moves = cell.moves || places == LoadPlaces::state;
+      centrifugal_block(model, load, cell, moves ? &trial.u : nullptr, block);
+      const std::span<const Dof> d(block.dofs.data(), static_cast<std::size_t>(block.dof_count));
+      for (int k = 0; k < block.dof_count; ++k)
+        to.into.forces.external[d[static_cast<std::size_t>(k)]] +=
+            speed_squared * block.result.force[k];
+      if (!to.with_tangent || !moves) continue;
+      block.result.tangent *= -to.share * speed_squared;
+      to.add_stiffness(d, block.result.tangent);
+    }
+  }
+}
+
+template <int Dim>
 void LoadTerm<Dim>::add_dead_loads(const Step& step, double fraction, Forces& forces) const {
   for (const DeadLoad& load : step.dead) {
     const double factor = load.ramp.value(fraction);
