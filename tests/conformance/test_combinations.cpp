@@ -36,8 +36,11 @@ const std::vector<Value> normals{
     {"table: [[0, 0], [0.1, 6]]", {Trait::gap_law}},
     {"penalty: 60, damping: {restitution: 0.7}", {Trait::damping}},
     {"penalty: 60, separation: no_separation", {Trait::held}},
-    {"penalty: 60, separation: tied_normal, tolerance: 0.1", {Trait::held, Trait::held_from_start}},
+    {"penalty: 60, separation: tied_normal, tolerance: 0.1",
+     {Trait::held, Trait::held_from_start, Trait::keeps_gap}},
     {"penalty: 60, separation: tied, tolerance: 0.1",
+     {Trait::held, Trait::held_from_start, Trait::keeps_gap, Trait::tied}},
+    {"penalty: 60, separation: tied, tolerance: 0.1, initial_gap: close",
      {Trait::held, Trait::held_from_start, Trait::tied}}};
 const std::vector<Value> enforcements{
     {"penalty"},
@@ -53,6 +56,7 @@ const std::vector<Value> forms{{"weight: reference_area"},
                                {"two_pass: true", {Trait::two_pass}}};
 const std::vector<std::string> frictions{"none", "{coulomb: {mu: 0.3, penalty: 40}}",
                                          "{tresca: {limit: 0.2, penalty: 40}}"};
+const std::vector<std::string> ties{"none", "{rough: {penalty: 40}}"};  // frictions of what is tied
 
 struct Choice {
   const Value &sampling, &target, &normal, &enforcement, &form;
@@ -125,7 +129,7 @@ void for_each_choice(std::size_t stride, std::size_t first, const Visit& visit) 
           const bool tied = normal.text.find("tied,") != std::string::npos;
           if (i % stride == first)
             visit(Choice{sampling, targets[i % targets.size()], normal, enforcement, form,
-                         tied ? "none" : frictions[i / 2 % frictions.size()]});
+                         tied ? ties[i / 2 % ties.size()] : frictions[i / 2 % frictions.size()]});
           ++i;
         }
 }

@@ -64,6 +64,28 @@ void apply_damping(const BuildContext<Dim>& c, const ContactChange& change,
   to.damping = damping.law;
 }
 
+/// The friction of a pair then.
+template <int Dim>
+std::optional<contact::FrictionLaw> changed_friction(const BuildContext<Dim>& c,
+                                                     const ContactChange& change,
+                                                     const pairing::PairDefinition<Dim>& pair,
+                                                     std::size_t step) {
+  if (!*change.friction) return std::nullopt;
+  const GivenLaw<contact::FrictionLaw>& friction = **change.friction;
+  contact::FrictionLaw law = friction.law;
+  if (friction.automatic)
+    law = contact::with_stiffness(
+        law, kept_penalty(
+                 friction.stiffness,
+                 pair.friction ? std::optional(contact::stiffness(*pair.friction)) : std::nullopt,
+                 "friction law", "the pair has no friction that has one"));
+  StepRange acts =
+      steps_of_law(c.description, change.pair.value, step + 1, &ContactChange::friction);
+  acts.first = step;
+  check_durations(c.description, friction.timed, "friction that depends on speed", acts);
+  return law;
+}
+
 template <int Dim>
 void apply(const BuildContext<Dim>& c, const ContactChange& change,
            const model::BasicContactPair<Dim>& whole, model::BasicPairChange<Dim>& to) {
@@ -86,23 +108,9 @@ void apply(const BuildContext<Dim>& c, const ContactChange& change,
     to.separation = separation_of(n, pair);
   }
   apply_damping(c, change, to);
-  if (!change.friction) return;
-  to.friction.reset();
-  if (!*change.friction) return;
-  const GivenLaw<contact::FrictionLaw>& friction = **change.friction;
-  contact::FrictionLaw law = friction.law;
-  if (friction.automatic)
-    law = contact::with_stiffness(
-        law, kept_penalty(
-                 friction.stiffness,
-                 pair.friction ? std::optional(contact::stiffness(*pair.friction)) : std::nullopt,
-                 "friction law", "the pair has no friction that has one"));
-  StepRange acts =
-      steps_of_law(c.description, change.pair.value, to.step + 1, &ContactChange::friction);
-  acts.first = to.step;
-  check_durations(c.description, friction.timed, "friction that depends on speed", acts);
-  const bool may_part = pairing::is<pairing::MayPart>(to.separation);
-  to.friction = may_part ? contact::parting(law) : law;
+  if (change.friction) to.friction = changed_friction(c, change, pair, to.step);
+  if (to.friction && pairing::is<pairing::MayPart>(to.separation))
+    to.friction = contact::parting(*to.friction);
 }
 
 /// Fails where the pair as it is then would have been refused.
@@ -120,8 +128,6 @@ void check_changed(const ContactChange& change, pairing::PairDefinition<Dim> pai
   pair.friction = to.friction;
   pair.separation = to.separation;
   pair.damping = to.damping;
-  if (pairing::is_tied(pair) && pair.friction)
-    throw core::InputError(change.mark, "tied points do not slide: they have no friction");
   if (const pairing::Refusal* const refused = pairing::refusal(pairing::traits_of(pair)))
     throw core::InputError(change.mark, std::string(refused->why));
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "osculate/contact/law/catalogue.hpp"
 #include "osculate/deck/build_contact_parts.hpp"
 #include "osculate/pairing/combinations.hpp"
 
@@ -39,7 +40,13 @@ std::vector<Asked> asked_of(const Contact& c) {
       {Trait::held, separation != SeparationWord::allowed, &n.separation.mark},
       {Trait::held_from_start, tied || separation == SeparationWord::tied_normal,
        &n.separation.mark},
+      {Trait::keeps_gap,
+       separation == SeparationWord::tied_normal ||
+           (tied && n.initial_gap.value == InitialGap::keep),
+       &n.separation.mark},
       {Trait::tied, tied, &n.separation.mark},
+      {Trait::slides, c.friction && !c.friction->law.as<contact::Rough>(),
+       c.friction ? &c.friction->mark : &c.name.mark},
       {Trait::relieved_overlap,
        c.initial.value == InitialWord::ramp || c.initial.value == InitialWord::keep,
        &c.initial.mark},

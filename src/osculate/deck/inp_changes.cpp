@@ -71,11 +71,11 @@ void change_activity(const InpModel& m, const Card& card, SourceNode& list) {
 
 /// A law without a stick slope keeps that of the pair, which has one only with a law of friction.
 SourceNode changed_shear(const InpModel& m, const Card& card, const InpInteraction& law,
-                         const Card* damping) {
-  SourceNode shear = inp_shear(m, &card, damping);
+                         const Card* behavior, const Card* damping) {
+  SourceNode shear = inp_shear(m, behavior, &card, damping);
   SourceNode* const coulomb = find(shear, "coulomb");
   if (!coulomb || find(*coulomb, "penalty")) return shear;
-  const SourceNode at_first = inp_shear(m, law.friction, nullptr);
+  const SourceNode at_first = inp_shear(m, law.behavior, law.friction, nullptr);
   if (at_first.entries.empty())
     io::inp::fail(m.deck, card,
                   fmt::format("needs a stick slope: the interaction '{}' has no friction at first "
@@ -89,16 +89,33 @@ std::span<const Card> up_to_end(const InpModel& m, std::span<const Card> step) {
   return {m.deck.cards.data(), step.data() + step.size()};
 }
 
-/// The last `*FRICTION` of an interaction.
-const Card* friction_by_now(const InpInteraction& of, std::span<const Card> cards) {
-  const Card* last = of.friction;
+/// The last card of a law of an interaction: that after a `*CHANGE` of it, or the first one.
+const Card* law_by_now(const InpInteraction& of, const Card* first, std::string_view keyword,
+                       std::span<const Card> cards) {
+  const Card* last = first;
   bool follows = false;
   for (const Card& card : cards) {
-    if (card.keyword == "FRICTION" && follows) last = &card;
-    if (card.keyword == "CHANGEFRICTION")
+    if (card.keyword == keyword && follows) last = &card;
+    if (card.keyword == "CHANGE" + std::string(keyword))
       follows = option_of(card, "INTERACTION") == io::inp::capitals(of.name);
   }
   return last;
+}
+const Card* friction_by_now(const InpInteraction& of, std::span<const Card> cards) {
+  return law_by_now(of, of.friction, "FRICTION", cards);
+}
+const Card* behavior_by_now(const InpInteraction& of, std::span<const Card> cards) {
+  return law_by_now(of, of.behavior, "SURFACEBEHAVIOR", cards);
+}
+
+/// Friction of a pair as its interaction has it after some cards, if the entry has none yet.
+void put_shear_by_now(const InpModel& m, std::span<const Card> cards, const InpInteraction& law,
+                      int line, SourceNode& entry) {
+  if (find(entry, "friction")) return;
+  SourceNode shear = inp_shear(m, behavior_by_now(law, cards), friction_by_now(law, cards),
+                               contact_is_damped(m, cards) ? law.damping : nullptr);
+  const bool none = shear.entries.empty() && shear.text.empty();
+  put(entry, "friction", none ? inp_text("none", line) : std::move(shear));
 }
 
 /// Damping that acts in this step and did not before, or the other way round, with the film that is
@@ -118,12 +135,22 @@ void change_damping(const InpModel& m, std::span<const Card> step, SourceNode& l
     SourceNode of_law = inp_map(line);
     if (acts) put_damping(m, *law.damping, of_law);
     put(entry, "damping", acts ? std::move(of_law.entries[0].value) : inp_text("none", line));
-    if (inp_is_tied(law.behavior) || find(entry, "friction") ||
-        !io::inp::find_parameter(*law.damping, "TANGENTFRACTION"))
-      continue;
-    SourceNode shear = inp_shear(m, friction_by_now(law, all), acts ? law.damping : nullptr);
-    const bool none = shear.entries.empty() && shear.text.empty();
-    put(entry, "friction", none ? inp_text("none", line) : std::move(shear));
+    if (io::inp::find_parameter(*law.damping, "TANGENTFRACTION"))
+      put_shear_by_now(m, all, law, line, entry);
+  }
+}
+
+/// What is tied no more has the friction of its interaction, with a limit.
+void change_tied(const InpModel& m, std::span<const Card> step, SourceNode& list) {
+  const std::span<const Card> all = up_to_end(m, step);
+  const std::vector<InpInteraction> interactions = inp_interactions(m);
+  for (SourceNode& entry : list.items) {
+    const auto pair = std::ranges::find(m.pairs, find(entry, "pair")->text, &InpPair::name);
+    if (!find(entry, "normal") || pair == m.pairs.end() || pair->interaction.empty()) continue;
+    const InpInteraction& law =
+        interaction_named(m, interactions, step.front().at, pair->interaction);
+    if (inp_is_tied(behavior_by_now(law, all.first(all.size() - step.size()))))
+      put_shear_by_now(m, all, law, line_of(step.front().at), entry);
   }
 }
 
@@ -147,7 +174,7 @@ SourceNode inp_changes(const InpModel& m, std::span<const Card> step) {
           [&](const InpPair& pair) {
             const auto all = inp_interactions(m);
             const InpInteraction& law = interaction_named(m, all, card.at, pair.interaction);
-            return changed_shear(m, card, law,
+            return changed_shear(m, card, law, behavior_by_now(law, up_to_end(m, step)),
                                  contact_is_damped(m, up_to_end(m, step)) ? law.damping : nullptr);
           },
           list);
@@ -160,7 +187,9 @@ SourceNode inp_changes(const InpModel& m, std::span<const Card> step) {
           list);
     change = nullptr;
   }
-  if (!step.empty()) change_damping(m, step, list);
+  if (step.empty()) return list;
+  change_tied(m, step, list);
+  change_damping(m, step, list);
   return list;
 }
 

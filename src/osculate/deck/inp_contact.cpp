@@ -65,9 +65,9 @@ void put_sampling(InpModel& m, const Card& card, const std::string& slave,
     return;
   }
   put(put(pair, "sampling", inp_map(at)), "gauss",
-      inp_number(!second_order               ? 2
-                 : inp_is_tied(law.behavior) ? 6
-                                             : 3,
+      inp_number(inp_is_tied(law.behavior) ? 6
+                 : second_order            ? 3
+                                           : 2,
                  at));
 }
 
@@ -152,6 +152,19 @@ double usual_clearance(const InpModel& m, const Card& card, const std::string& s
   return share * std::sqrt(area / static_cast<double>(set->nodes.size()));
 }
 
+/// Where CalculiX has no answer for what is tied.
+void note_tied_pair(InpModel& m, const Card& card, const InpInteraction& law, SourceNode& pair) {
+  if (!find(pair, "friction") || !find(*find(pair, "friction"), "rough") ||
+      !find(*find(*find(pair, "friction"), "rough"), "penalty"))
+    m.notes.push_back(
+        fmt::format("line {}: '{}' has no stick slope in a *FRICTION: what is tied is as stiff "
+                    "along the surface as across it (CalculiX stops there)",
+                    card.at.line, printable(law.name)));
+  if (find(pair, "sampling")->text == "nodes")
+    m.notes.push_back(fmt::format(
+        "line {}: nodes are tied (CalculiX ties with SURFACE TO SURFACE only)", card.at.line));
+}
+
 void add_contact_pair(InpModel& m, const Card& card, const InpInteraction& law, SourceNode& pairs) {
   const auto lines = io::inp::lines_of(m.deck, card);
   if (lines.empty()) io::inp::fail(m.deck, card, "expected a line with two surfaces");
@@ -170,15 +183,11 @@ void add_contact_pair(InpModel& m, const Card& card, const InpInteraction& law, 
     m.pairs.push_back({find(pair, "name")->text, io::inp::capitals(law.name),
                        find(pair, "slave")->text, find(pair, "master")->text, clearance});
     put_laws(m, law, pair, clearance);
-    if (law.friction && inp_is_tied(law.behavior))
-      m.notes.push_back(fmt::format(
-          "line {}: what is tied is as stiff along the surface as across it (CalculiX: the stick "
-          "slope of its *FRICTION), and its gap at first stays",
-          card.at.line));
+    if (inp_is_tied(law.behavior)) note_tied_pair(m, card, law, pair);
     if (const io::inp::Parameter* const adjust = io::inp::find_parameter(card, "ADJUST"))
       put_adjust(m, card, adjust->value, pair);
   }
-  if (io::inp::find_parameter(card, "SMALLSLIDING"))
+  if (io::inp::find_parameter(card, "SMALLSLIDING") && !inp_is_tied(law.behavior))
     m.notes.push_back(fmt::format("line {}: sliding is finite, not SMALL SLIDING", card.at.line));
 }
 
@@ -205,6 +214,20 @@ void put_clearance(InpModel& m, const Card& card, SourceNode& pairs) {
   const double value = Fields(m.deck, {value_of(m, card, "VALUE"), card.at}).real("VALUE");
   const int line = line_of(card.at);
   put(put(*pair, "initial", inp_map(line)), "clearance", inp_number(value, line));
+}
+
+/// What is tied and overlaps is pushed out over the first step, if that is static, as in CalculiX.
+void ramp_tied_overlaps(const InpModel& m, const std::vector<InpInteraction>& interactions,
+                        SourceNode& pairs) {
+  if (contact_is_damped(m, {})) return;  // the first step is dynamic
+  for (SourceNode& pair : pairs.items) {
+    const auto of = std::ranges::find(m.pairs, find(pair, "name")->text, &InpPair::name);
+    if (of == m.pairs.end() || find(pair, "initial") || find(pair, "sampling")->text == "mortar")
+      continue;
+    const InpInteraction& law = interaction_named(m, interactions, {}, of->interaction);
+    if (inp_is_tied(law.behavior))
+      put(pair, "initial", inp_text("ramp", line_of(law.behavior->at)));
+  }
 }
 
 /// Explicit steps know no equations of many displacements.
@@ -268,8 +291,7 @@ void put_laws(const InpModel& m, const InpInteraction& law, SourceNode& pair, do
       put(pair, "normal", inp_normal(m, law.behavior, line_of(law.card->at), clearance));
   const Card* const damping = contact_is_damped(m, {}) ? law.damping : nullptr;
   if (damping) put_damping(m, *damping, normal);
-  if (inp_is_tied(law.behavior)) return;
-  SourceNode friction = inp_shear(m, law.friction, damping);
+  SourceNode friction = inp_shear(m, law.behavior, law.friction, damping);
   if (!friction.entries.empty() || !friction.text.empty())
     put(pair, "friction", std::move(friction));
 }
@@ -302,6 +324,7 @@ SourceNode inp_contact(InpModel& m) {
   }
   for (const Card& card : m.deck.cards)
     if (card.keyword == "CLEARANCE") put_clearance(m, card, pairs);
+  ramp_tied_overlaps(m, interactions, pairs);
   return inp_general_contact(m, interactions, std::move(pairs));
 }
 

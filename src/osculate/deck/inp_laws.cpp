@@ -93,6 +93,19 @@ SourceNode friction_of(const InpModel& m, const Card& card, double film) {
   return friction;
 }
 
+/// What is tied has the stick slope along the surface, and no limit of friction.
+SourceNode tied_shear(const InpModel& m, const Card& card) {
+  SourceNode friction = inp_map(line_of(card.at));
+  SourceNode& rough = put(friction, "rough", inp_map(line_of(card.at)));
+  const auto lines = io::inp::lines_of(m.deck, card);
+  if (lines.empty()) return friction;
+  Fields fields(m.deck, lines[0]);
+  (void)fields.real_or_zero("the coefficient of friction");
+  if (const double slope = fields.real_or_zero("the stick slope"); slope > 0)
+    put(rough, "penalty", inp_number(slope, line_of(lines[0].at)));
+  return friction;
+}
+
 }  // namespace
 
 bool inp_is_tied(const Card* behavior) {
@@ -138,7 +151,10 @@ SourceNode inp_normal(const InpModel& m, const Card* behavior, int line, double 
   if (kind == "TIED") {
     if (find(normal, "separation"))
       io::inp::fail(m.deck, *behavior, "NO SEPARATION does not go with TIED, which holds already");
-    put(normal, "separation", inp_text("tied", line_of(behavior->at)));
+    const int at = line_of(behavior->at);
+    put(normal, "separation", inp_text("tied", at));
+    put(normal, "tolerance", inp_text("any", at));
+    put(normal, "initial_gap", inp_text("close", at));
   }
   return normal;
 }
@@ -148,7 +164,9 @@ bool inp_is_hard(const Card* behavior) {
   return kind.empty() || kind == "HARD";
 }
 
-SourceNode inp_shear(const InpModel& m, const Card* friction, const Card* damping) {
+SourceNode inp_shear(const InpModel& m, const Card* behavior, const Card* friction,
+                     const Card* damping) {
+  if (inp_is_tied(behavior)) return friction ? tied_shear(m, *friction) : inp_map(0);
   const double film = damping ? film_of(m, *damping) : 0;
   if (friction) return friction_of(m, *friction, film);
   return film > 0 ? film_alone(film, line_of(damping->at)) : inp_map(0);

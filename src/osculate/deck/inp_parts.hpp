@@ -246,10 +246,10 @@ void put_initial_state(const InpModel& m, SourceNode& root);
 [[nodiscard]] bool inp_is_tied(const io::inp::Card* behavior);
 /// Without a law of pressure.
 [[nodiscard]] bool inp_is_hard(const io::inp::Card* behavior);
-/// `friction` of a pair, from a `*FRICTION` with the damping along the surface of a `*CONTACT
-/// DAMPING`; null: there is none. Empty: neither.
-[[nodiscard]] SourceNode inp_shear(const InpModel& m, const io::inp::Card* friction,
-                                   const io::inp::Card* damping);
+/// `friction` of a pair with a law of pressure, from a `*FRICTION` with the damping along the
+/// surface of a `*CONTACT DAMPING`; null: there is none. Empty: neither.
+[[nodiscard]] SourceNode inp_shear(const InpModel& m, const io::inp::Card* behavior,
+                                   const io::inp::Card* friction, const io::inp::Card* damping);
 void put_damping(const InpModel& m, const io::inp::Card& card, SourceNode& normal);
 [[nodiscard]] SourceNode inp_axes(InpModel& m);
 /// The axes (columns) of its `*TRANSFORM`; the global ones without.

@@ -9,6 +9,25 @@
 namespace osculate::deck {
 namespace {
 
+BoundKey<NormalDescription> tied_tolerance_key() {
+  Spec spec =
+      either("Which points are tied.",
+             {number("Those whose gap at the start is no larger.")
+                  .in("length")
+                  .above(0)
+                  .such_as("0.01"),
+              choice("By their place.",
+                     {Choice{"any",
+                             "whatever their gap, those that lie over the master, not beside "
+                             "its edges, and face it",
+                             0}})})
+          .otherwise_as("a twentieth of the mean size of the master's facets")
+          .such_as("0.01");
+  return {optional("tolerance", std::move(spec)), [](NormalDescription& n, const Value& v) {
+            n.tolerance = {v.alternative == 0 ? v.number : pairing::any_gap, v.mark};
+          }};
+}
+
 /// What holds points together that are pulled apart.
 BoundKeys<NormalDescription> holding_keys() {
   using N = NormalDescription;
@@ -23,15 +42,11 @@ BoundKeys<NormalDescription> holding_keys() {
                             "friction law says; no others come into contact"),
                        word("tied", SeparationWord::tied,
                             "points near the master at the start stick to their places, pulled and "
-                            "pressed; no others come into contact")})
+                            "pressed, along the master with the penalty of `friction: rough` if "
+                            "there is one; no others come into contact")})
                    .otherwise("allowed")
                    .such_as("no_separation")),
-           may(&N::tolerance, "tolerance",
-               number("Gap at the start up to which points are tied.")
-                   .in("length")
-                   .above(0)
-                   .otherwise_as("a twentieth of the mean size of the master's facets")
-                   .such_as("0.01")),
+           tied_tolerance_key(),
            may(&N::initial_gap, "initial_gap",
                choice("What becomes of the gaps of tied points.",
                       {word("keep", InitialGap::keep, "they stay as they are, without a force"),
@@ -112,9 +127,6 @@ void read_normal(const Value& v, NormalDescription& n) {
 
 void read_friction(Contact& c, const Value& v) {
   if (v.alternative != 0) c.friction = friction_law_of(v);
-  if (c.friction && c.normal.separation.value == SeparationWord::tied)
-    throw core::InputError(v.mark,
-                           "tied points do not slide: leave out friction, or use tied_normal");
 }
 
 /// Half thicknesses of shells.

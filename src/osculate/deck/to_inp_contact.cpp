@@ -29,6 +29,11 @@ std::string written_pressure(const std::string& path, Leaves& leaves) {
   const auto penalty = leaves.number(path + ".penalty");
   if (separation == "tied_normal" || (tied && !penalty))
     leaves.fail(path + ".separation", "is written with a penalty; *TIE is written of `ties`");
+  if (tied &&
+      (leaves.text(path + ".tolerance") != "any" || leaves.text(path + ".initial_gap") != "close"))
+    leaves.fail(path + ".separation",
+                "is written with `tolerance: any, initial_gap: close`, as what is tied in an input "
+                "file has it; *TIE is written of `ties`");
   const std::string text =
       fmt::format("*SURFACE BEHAVIOR{}, PRESSURE-OVERCLOSURE=", holds ? ", NO SEPARATION" : "");
   if (penalty) return text + fmt::format("{}\n{}\n", tied ? "TIED" : "LINEAR", exact(*penalty));
@@ -52,6 +57,13 @@ struct WrittenShear {
   std::string text;
   double film = 0;
 };
+/// Of what is tied: a stick slope, which is that across the surface where there is none.
+std::string written_stick(const std::string& path, const NormalDescription& tied, Leaves& leaves) {
+  (void)leaves.text(path);
+  const auto slope = leaves.number(path + ".rough.penalty");
+  return fmt::format("*FRICTION\n1, {}\n",
+                     exact(slope.value_or(contact::penalty_of(tied.law.law))));
+}
 WrittenShear written_shear(const std::string& path, Leaves& leaves) {
   if (leaves.text(path) == "none") return {"*FRICTION\n0\n"};
   if (const auto film = leaves.number(path + ".viscous.coefficient")) return {"", *film};
@@ -116,7 +128,10 @@ std::string written_laws(const Description& d, const Contact& contact, const std
   std::string out = fmt::format("*SURFACE INTERACTION, NAME={}\n", name);
   (void)leaves.text(path + ".normal");  // {}: hard
   out += written_pressure(path + ".normal", leaves);
-  const WrittenShear shear = written_shear(path + ".friction", leaves);
+  const WrittenShear shear =
+      contact.normal.separation.value == SeparationWord::tied
+          ? WrittenShear{written_stick(path + ".friction", contact.normal, leaves)}
+          : written_shear(path + ".friction", leaves);
   out += shear.text;
   const double damper = written_damping(d, contact, path, leaves);
   if (damper == 0 && shear.film == 0) return out;
@@ -164,7 +179,9 @@ PairType type_of_pair(const Contact& contact, const model::BasicModel<Dim>& m,
       std::ranges::find(m.pairs, contact.name.value, [](const auto& one) { return one.name; });
   bool nodes = asked.rule == SamplingRule::nodes;
   bool gauss = asked.rule == SamplingRule::gauss && asked.subdomains == 1 &&
-               asked.points == (curved ? (tied ? 6 : 3) : 2);
+               asked.points == (tied     ? 6
+                                : curved ? 3
+                                         : 2);
   if (asked.rule == SamplingRule::automatic && pair != m.pairs.end()) {
     nodes = pairing::sampled_at_nodes(pair->definition.slave);
     gauss = !nodes;
@@ -264,6 +281,9 @@ void write_pair(const Description& d, const model::BasicModel<Dim>& m, std::size
   const std::string adjust = adjusted(contact, path, mesh, leaves);
   out += fmt::format("*CONTACT PAIR, INTERACTION={}, TYPE={}{}\n{}, {}\n",
                      law_name(contact.name.value), type.type, adjust, slave, master);
+  if (contact.normal.separation.value == SeparationWord::tied &&
+      contact.initial.value == InitialWord::ramp)
+    (void)leaves.text(path + ".initial");
   if (const auto clearance = leaves.number(path + ".initial.clearance"))
     out += fmt::format("*CLEARANCE, SLAVE={}, MASTER={}, VALUE={}\n", slave, master,
                        exact(*clearance));
@@ -295,6 +315,19 @@ void write_ties(const Description& d, InpMesh<Dim>& mesh, Leaves& leaves, std::s
   }
 }
 
+namespace {
+
+bool is_tied_after(const Description& d, const Contact& contact, std::size_t steps) {
+  bool tied = contact.normal.separation.value == SeparationWord::tied;
+  for (std::size_t s = 0; s < steps; ++s)
+    for (const ContactChange& change : d.steps[s].contact)
+      if (change.pair.value == contact.name.value && change.normal)
+        tied = change.normal->separation.value == SeparationWord::tied;
+  return tied;
+}
+
+}  // namespace
+
 template <int Dim>
 std::string contact_changes(const Description& d, std::size_t step, InpMesh<Dim>& mesh,
                             Leaves& leaves) {
@@ -314,7 +347,16 @@ std::string contact_changes(const Description& d, std::size_t step, InpMesh<Dim>
     if (change.normal)
       out += fmt::format("*CHANGE SURFACE BEHAVIOR, INTERACTION={}\n{}",
                          law_name(change.pair.value), written_pressure(path + ".normal", leaves));
+    const bool tied = is_tied_after(d, *of, step + 1);
+    if (!change.friction && !tied && is_tied_after(d, *of, step))
+      throw core::InputError(change.mark,
+                             "needs `friction`, for what is tied has another one in an input file");
     if (!change.friction) continue;
+    if (tied) {
+      out += fmt::format("*CHANGE FRICTION, INTERACTION={}\n{}", law_name(change.pair.value),
+                         written_stick(path + ".friction", of->normal, leaves));
+      continue;
+    }
     const WrittenShear shear = written_shear(path + ".friction", leaves);
     const auto pair = static_cast<std::size_t>(of - d.contact.begin());
     const WrittenShear first = written_shear(path_of(d, pair) + ".friction", leaves);

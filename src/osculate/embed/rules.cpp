@@ -6,6 +6,7 @@
 #include <cmath>
 #include <span>
 
+#include "osculate/contact/law/catalogue.hpp"
 #include "osculate/embed/laws.hpp"
 #include "osculate/pairing/combinations.hpp"
 
@@ -80,7 +81,9 @@ pairing::Traits traits_of(const Contact<Dim>& c, const Choices& is) {
   t.add(Trait::damping, c.damping.has_value());
   t.add(Trait::held, is.held);
   t.add(Trait::held_from_start, is.tied || c.separation == Separation::tied_normal);
+  t.add(Trait::keeps_gap, c.separation == Separation::tied_normal || (is.tied && c.keep_gap));
   t.add(Trait::tied, is.tied);
+  t.add(Trait::slides, c.friction && !law_of(*c.friction, false).template as<contact::Rough>());
   t.add(Trait::relieved_overlap, c.overlap != InitialOverlap::acts);
   t.add(Trait::corrected, is.corrected);
   t.add(Trait::multipliers, is.unknown);
@@ -110,7 +113,6 @@ std::string wrong_sampling(const Contact<Dim>& c, const Choices& is) {
 template <int Dim>
 std::string wrong_laws(const Contact<Dim>& c, const Choices& is) {
   const std::string wrong = first_broken({
-      {is.tied && c.friction.has_value(), "tied points do not slide: leave out friction"},
       {c.reentrant_vertices && (!is.unknown || is.mortar || is.held || c.offset != 0 ||
                                 c.overlap != InitialOverlap::acts),
        "re-entrant vertices and edges hold points at nodes whose tractions are unknown, and "

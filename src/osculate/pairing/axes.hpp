@@ -2,6 +2,7 @@
 // The choices of a contact pair of which each is one of several kinds, with what belongs to that
 // kind alone. (The target needs no list: every facet of a master says itself what it is, so that
 // one master may be of several kinds. The laws are catalogues: contact/law.)
+#include <limits>
 #include <numbers>
 #include <unordered_map>
 #include <variant>
@@ -34,6 +35,9 @@ using Sampler = std::variant<AtPoints, AtEdgesToo, ByMortar<Dim>>;
 
 // ---- which points stay in contact whatever pulls at them ----------------------------------------
 
+/// As a tolerance: whatever the gap of a point is that lies over the master and faces it.
+inline constexpr double any_gap = std::numeric_limits<double>::infinity();
+
 /// None.
 struct MayPart {};
 /// Those that were in contact at the end of the last increment.
@@ -42,10 +46,11 @@ struct NeverPart {};
 struct TiedNormal {
   double tolerance = 0;  ///< gap at the start of the points that are held
 };
-/// The same, and they do not slide either (tie.hpp); no friction law.
+/// The same, and they do not slide either (tie.hpp). Friction is rough: its penalty is their
+/// stiffness along the master, which without one is that across it.
 template <int Dim>
 struct Tied {
-  double tolerance = 0;                ///< as of TiedNormal
+  double tolerance = 0;                ///< as of TiedNormal; any_gap: no points beside the master
   bool keep_gap = true;                ///< false pulls the points onto the master
   std::vector<TiedPoint<Dim>> ties{};  ///< filled by `prepare`
 };

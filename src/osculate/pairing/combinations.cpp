@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "osculate/contact/law/catalogue.hpp"
 #include "osculate/pairing/mortar_cell.hpp"
 #include "osculate/pairing/sampling.hpp"
 
@@ -28,8 +29,10 @@ constexpr std::array table{
     Refusal{given_clearance, mortar, "mortar knows initial gaps only as they are in the mesh"},
     Refusal{given_clearance, own_surface,
             "a clearance is that of two surfaces: name master and slave"},
-    Refusal{given_clearance, held_from_start,
+    Refusal{given_clearance, keeps_gap,
             "points that are held from the start keep the gap they have"},
+    Refusal{relieved_overlap, keeps_gap,
+            "points that keep the gap they have do not press: leave out initial"},
     Refusal{given_clearance, edges, "edge-edge contacts have no gap at the start"},
     Refusal{corrected, gap_law,
             "a law that gives the pressure as a function of the gap is met by itself: use penalty"},
@@ -37,6 +40,9 @@ constexpr std::array table{
             "damping is a part of the spring that a penalty is, and corrected or unknown tractions "
             "have none: use penalty, or leave out damping"},
     Refusal{corrected, tied, "tied points are held by penalty only"},
+    Refusal{slides, tied,
+            "tied points do not slide: leave out friction, or use rough, whose penalty is their "
+            "stiffness along the master"},
     Refusal{corrected, named_edges,
             "edge-edge contacts come and go: they are enforced by penalty only"},
     Refusal{multipliers, own_surface,
@@ -117,7 +123,10 @@ Traits traits_of(const PairDefinition<Dim>& pair) {
   t.add(damping, pair.damping.has_value());
   t.add(held, !is<MayPart>(pair.separation));
   t.add(Trait::held_from_start, pairing::held_from_start(pair));
-  t.add(tied, is_tied(pair));
+  const auto* const ties = std::get_if<Tied<Dim>>(&pair.separation);
+  t.add(keeps_gap, is<TiedNormal>(pair.separation) || (ties && ties->keep_gap));
+  t.add(tied, ties);
+  t.add(slides, pair.friction && !pair.friction->template as<contact::Rough>());
   t.add(relieved_overlap,
         pair.overlap == InitialOverlap::ramped || pair.overlap == InitialOverlap::kept);
   t.add(given_clearance, pair.overlap == InitialOverlap::given);
@@ -146,7 +155,9 @@ std::string_view name_of(Trait trait) {
       "`damping`",
       "`separation: no_separation`, `tied_normal` or `tied`",
       "`separation: tied_normal` or `tied`",
+      "`separation: tied_normal`, or `tied` with `initial_gap: keep`",
       "`separation: tied`",
+      "`friction` other than `rough`",
       "`initial: ramp` or `keep`",
       "`initial: clearance`",
       "`enforcement: augmented_lagrange` or `lagrange_multiplier`",

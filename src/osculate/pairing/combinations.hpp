@@ -22,7 +22,9 @@ enum class Trait : std::uint8_t {
   damping,            ///< of the normal law
   held,               ///< any separation but `allowed`
   held_from_start,    ///< tied_normal, tied
+  keeps_gap,          ///< held from the start without a force of their gaps
   tied,               ///< without slip too
+  slides,             ///< friction that has a limit
   relieved_overlap,   ///< initial overlaps that are ramped, or do not count
   given_clearance,    ///< initial gaps that are given
   corrected,          ///< augmented Lagrangian or multipliers

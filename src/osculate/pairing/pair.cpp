@@ -224,7 +224,7 @@ void evaluate(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Di
   Laps laps;
   out.stiffening = multipliers ? multipliers->stiffening : 1;
   if (is_tied(pair)) {
-    evaluate_ties(pair, x, committed, with_tangent, out);
+    evaluate_ties(pair, x, active_set.relief, with_tangent, out);
     laps.add_to(out.seconds.evaluation);
     return;
   }

@@ -2,11 +2,13 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <algorithm>
 #include <limits>
 
 #include "osculate/cell/shape.hpp"
 #include "osculate/pairing/mortar.hpp"
 #include "osculate/pairing/point_block.hpp"
+#include "osculate/pairing/point_penalty.hpp"
 #include "osculate/pairing/point_sample.hpp"
 #include "osculate/pairing/point_weight.hpp"
 #include "osculate/pairing/report.hpp"
@@ -51,11 +53,11 @@ std::array<Mat<3, 3>, 2> normal_rates(const Bases<3>& r) {
   return {Mat<3, 3>(-cross_matrix(r[1])), cross_matrix(r[0])};
 }
 
-/// The part of the tangent by the second derivative of m, times c^n q.
+/// The part of the tangent by the second derivative of m: v . d2m.
 void add_second_rate(const Vec2&, contact::PointTerms<2>&) {}
-void add_second_rate(const Vec3& q, contact::PointTerms<3>& terms) {
-  terms.m[1][2] += cross_matrix(q);
-  terms.m[2][1] -= cross_matrix(q);
+void add_second_rate(const Vec3& v, contact::PointTerms<3>& terms) {
+  terms.m[1][2] -= cross_matrix(v);
+  terms.m[2][1] += cross_matrix(v);
 }
 
 // ---- places -------------------------------------------------------------------------------------
@@ -97,6 +99,13 @@ Bases<Dim> bases_of(const TiedPoint<Dim>& tie, Points<Dim> x) {
   return r;
 }
 
+/// The part of the gap at the start that may not count (InitialOverlap).
+template <int Dim>
+double relieved_gap(const PairDefinition<Dim>& pair, double gap) {
+  if (pair.overlap == InitialOverlap::acts) return 0;
+  return pair.overlap == InitialOverlap::given ? gap - pair.clearance : std::min(0.0, gap);
+}
+
 /// Sets what is kept; false where the point is too far away, or has no facet to be carried by.
 template <int Dim>
 bool keep(const PairDefinition<Dim>& pair, const Tied<Dim>& tied, Points<Dim> x,
@@ -109,10 +118,12 @@ bool keep(const PairDefinition<Dim>& pair, const Tied<Dim>& tied, Points<Dim> x,
   if (tied.keep_gap) {
     Mat<Dim, Dim> base;
     for (int i = 0; i < Dim - 1; ++i) base.col(i) = r[static_cast<std::size_t>(i)];
-    base.col(Dim - 1) = m;
+    base.col(Dim - 1) = m.normalized();
     tie.kept = base.partialPivLu().solve(apart);
   } else {
-    tie.kept[Dim - 1] = tie.side * pair.offset / m.norm();
+    const double gap = tie.side * m.dot(apart) / m.norm();
+    tie.kept[Dim - 1] = tie.side * pair.offset;
+    tie.relieved = tie.side * relieved_gap(pair, gap - pair.offset);
   }
   return true;
 }
@@ -125,11 +136,16 @@ void tie_points(const PairDefinition<Dim>& pair, Points<Dim> x, Tied<Dim>& tied)
   PairState<Dim> none;
   none.points.resize(pair.slave.points.size());
   evaluate<Dim>(open, x, none, false, work);
-  // what moves as one may look whichever way
-  work.normals.assign(pair.slave.points.size(), Vec<Dim>::Zero());
+  const bool over = tied.tolerance == any_gap;
+  const std::vector<Vec<Dim>> normals = work.normals;
+  // what moves as one may look whichever way, but for what is far apart
+  if (!over) work.normals.assign(pair.slave.points.size(), Vec<Dim>::Zero());
   for (std::size_t i = 0; i < pair.slave.points.size(); ++i) {
     const ProjectedPoint<Dim> projected = project_point<Dim>(open, work, x, i, {});
     if (projected.projection.feature == projection::Feature::none) continue;
+    if (over && (projected.projection.beyond_end ||
+                 projected.kinematics.normal.dot(normals[i]) > facing_cosine))
+      continue;
     const SlavePoint<Dim>& point = pair.slave.points[i];
     const auto& facet = pair.master.facets[at(projected.projection.facet)];
     TiedPoint<Dim> tie;
@@ -185,14 +201,21 @@ struct TieState {
   Bases<Dim> r;
   ContactSample<Dim> sample;
   Vec<Dim> q;
+  Vec<Dim> normal;   ///< n = m / |m|
+  double size = 0;   ///< |m|
+  double along = 0;  ///< c^n
 };
 
 template <int Dim>
-TieState<Dim> state_of(const PairDefinition<Dim>& pair, const TiedPoint<Dim>& tie, Points<Dim> x) {
+TieState<Dim> state_of(const PairDefinition<Dim>& pair, const TiedPoint<Dim>& tie, Points<Dim> x,
+                       double relief) {
   TieState<Dim> s;
   s.r = bases_of<Dim>(tie, x);
+  s.along = tie.kept[Dim - 1] + relief * tie.relieved;
   const Vec<Dim> m = normal_of(s.r), apart = distance_of<Dim>(tie, x);
-  s.q = apart - tie.kept[Dim - 1] * m;
+  s.size = m.norm();
+  s.normal = m / s.size;
+  s.q = apart - s.along * s.normal;
   for (std::size_t i = 0; i < s.r.size(); ++i)
     s.q -= tie.kept[static_cast<Eigen::Index>(i)] * s.r[i];
   ContactSample<Dim>& at = s.sample;
@@ -200,7 +223,7 @@ TieState<Dim> state_of(const PairDefinition<Dim>& pair, const TiedPoint<Dim>& ti
   at.feature = tie.feature;
   at.xi = tie.xi;
   at.foot = position<Dim>(pair.slave.points[static_cast<std::size_t>(tie.point)], x) - apart;
-  at.normal = tie.side * m / m.norm();
+  at.normal = tie.side * s.normal;
   at.frame = contact::tangent_frame<Dim>(at.normal, s.r[0]);
   at.gap = at.normal.dot(apart);
   return s;
@@ -208,34 +231,81 @@ TieState<Dim> state_of(const PairDefinition<Dim>& pair, const TiedPoint<Dim>& ti
 
 /// A law without limit surface: it sticks, pressed and pulled.
 template <int Dim>
-Response<Dim> response_of(const TieState<Dim>& s, double stiffness) {
+Response<Dim> response_of(const TieState<Dim>& s, const PointPenalty& eps) {
+  const double across = s.sample.normal.dot(s.q);
+  const Vec<Dim - 1> shear = s.sample.frame.transpose() * s.q;
   Response<Dim> r;
   r.has_shear = true;
-  r.traction.normal = {true, stiffness * s.sample.normal.dot(s.q), stiffness,
-                       0.5 * stiffness * s.q.squaredNorm()};
-  r.law.traction = r.traction.tangential.traction = stiffness * (s.sample.frame.transpose() * s.q);
+  r.traction.normal = {true, eps.normal * across, eps.normal,
+                       0.5 * (eps.normal * across * across + eps.shear * shear.squaredNorm())};
+  r.law.traction = r.traction.tangential.traction = eps.shear * shear;
   return r;
 }
 
-/// R_k and K_kl of a tied point by slots: w_k, then b_ik.
+/// Derivatives by the sums of each slot.
+template <int Dim>
+struct TieRates {
+  std::array<Mat<Dim, Dim>, Dim> n, q;
+};
+
+template <int Dim>
+TieRates<Dim> rates_of(const TiedPoint<Dim>& tie, const TieState<Dim>& s) {
+  const std::array<Mat<Dim, Dim>, Dim - 1> turning = normal_rates(s.r);
+  const Mat<Dim, Dim> across = Mat<Dim, Dim>::Identity() - s.normal * s.normal.transpose();
+  TieRates<Dim> d;
+  d.n[0].setZero();
+  d.q[0].setIdentity();
+  for (std::size_t i = 0; i + 1 < Dim; ++i) {
+    d.n[i + 1] = across * turning[i] / s.size;
+    d.q[i + 1] =
+        -tie.kept[static_cast<Eigen::Index>(i)] * Mat<Dim, Dim>::Identity() - s.along * d.n[i + 1];
+  }
+  return d;
+}
+
+/// The second derivative of the normal, times q and a factor:
+///   q . d2n = u . d2m / |m| - [(n . dm_a) (u . dm_b) + (n . dm_b) (u . dm_a)] / |m|^2 -
+///             (n . q) dn_a . dn_b ,  u = q - (n . q) n
+template <int Dim>
+void add_turning_rate(const TieState<Dim>& s, const TieRates<Dim>& d, double factor,
+                      contact::PointTerms<Dim>& terms) {
+  const double h = s.normal.dot(s.q);
+  const Vec<Dim> u = s.q - h * s.normal;
+  const std::array<Mat<Dim, Dim>, Dim - 1> turning = normal_rates(s.r);
+  std::array<Vec<Dim>, Dim - 1> along, across;
+  for (std::size_t i = 0; i + 1 < Dim; ++i) {
+    along[i] = turning[i].transpose() * s.normal / s.size;
+    across[i] = turning[i].transpose() * u / s.size;
+  }
+  for (std::size_t i = 0; i + 1 < Dim; ++i)
+    for (std::size_t j = 0; j + 1 < Dim; ++j)
+      terms.m[i + 1][j + 1] -=
+          factor * (along[i] * across[j].transpose() + across[i] * along[j].transpose() +
+                    h * (d.n[i + 1].transpose() * d.n[j + 1]));
+  add_second_rate(Vec<Dim>(factor * u / s.size), terms);
+}
+
+/// R_k and K_kl of a tied point by slots, w_k, then b_ik: derivatives of the energy
+/// eps_T q . q / 2 + (eps_N - eps_T) h^2 / 2, h = n . q, for which n . d2q = c^n dn_a . dn_b.
 template <int Dim>
 contact::PointTerms<Dim> terms_of(const TiedPoint<Dim>& tie, const TieState<Dim>& s,
-                                  double stiffness) {
-  const double along = tie.kept[Dim - 1];
-  std::array<Mat<Dim, Dim>, Dim> rate;  // of q by the sums of each slot
-  rate[0].setIdentity();
-  const std::array<Mat<Dim, Dim>, Dim - 1> turning = normal_rates(s.r);
-  for (std::size_t i = 0; i + 1 < Dim; ++i)
-    rate[i + 1] =
-        -tie.kept[static_cast<Eigen::Index>(i)] * Mat<Dim, Dim>::Identity() - along * turning[i];
+                                  const PointPenalty& eps) {
+  const TieRates<Dim> d = rates_of(tie, s);
+  const double more = eps.normal - eps.shear, h = s.normal.dot(s.q);
+  std::array<Vec<Dim>, Dim> of_h;
   contact::PointTerms<Dim> terms;
   terms.used = Dim;
   for (std::size_t a = 0; a < Dim; ++a) {
-    terms.f[a] = stiffness * (rate[a].transpose() * s.q);
-    for (std::size_t b = 0; b < Dim; ++b)
-      terms.m[a][b] = stiffness * (rate[a].transpose() * rate[b]);
+    of_h[a] = d.q[a].transpose() * s.normal + d.n[a].transpose() * s.q;
+    terms.f[a] = eps.shear * (d.q[a].transpose() * s.q) + more * h * of_h[a];
   }
-  add_second_rate(Vec<Dim>(stiffness * along * s.q), terms);
+  for (std::size_t a = 0; a < Dim; ++a)
+    for (std::size_t b = 0; b < Dim; ++b)
+      terms.m[a][b] = eps.shear * (d.q[a].transpose() * d.q[b]) +
+                      more * (of_h[a] * of_h[b].transpose() +
+                              h * (d.n[a].transpose() * d.q[b] + d.q[a].transpose() * d.n[b] +
+                                   s.along * d.n[a].transpose() * d.n[b]));
+  add_turning_rate<Dim>(s, d, more * h - eps.shear * s.along, terms);
   return terms;
 }
 
@@ -273,8 +343,8 @@ void prepare_ties(PairDefinition<Dim>& pair, Points<Dim> reference) {
 }
 
 template <int Dim>
-void evaluate_ties(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Dim>&,
-                   bool with_tangent, PairEvaluation<Dim>& out) {
+void evaluate_ties(const PairDefinition<Dim>& pair, Points<Dim> x, double relief, bool with_tangent,
+                   PairEvaluation<Dim>& out) {
   const std::size_t n = pair.slave.points.size();
   out.points.assign(n, {});
   out.blocks.resize(n);
@@ -285,9 +355,10 @@ void evaluate_ties(const PairDefinition<Dim>& pair, Points<Dim> x, const PairSta
   }
   for (const TiedPoint<Dim>& tie : std::get<Tied<Dim>>(pair.separation).ties) {
     const std::size_t i = at(tie.point);
-    const double stiffness = point_penalty(pair, i).normal;
-    const TieState<Dim> s = state_of<Dim>(pair, tie, x);
-    const Response<Dim> r = response_of(s, stiffness);
+    PointPenalty eps = point_penalty(pair, i);
+    if (!pair.friction) eps.shear = eps.normal;
+    const TieState<Dim> s = state_of<Dim>(pair, tie, x, relief);
+    const Response<Dim> r = response_of(s, eps);
     PointResult<Dim>& result = out.points[i];
     const bool by_node = pair.weight == Weight::node;
     result = open_result<Dim>(
@@ -297,15 +368,15 @@ void evaluate_ties(const PairDefinition<Dim>& pair, Points<Dim> x, const PairSta
     report_normal(r.traction.normal, 0, result);
     report_contact<Dim>(r, r.law.traction, {}, result);
     result.history.held = true;
-    set_block(tie, r, terms_of(tie, s, stiffness), result.weight, with_tangent, out.blocks[i]);
+    set_block(tie, r, terms_of(tie, s, eps), result.weight, with_tangent, out.blocks[i]);
   }
 }
 
 template void prepare_ties<2>(PairDefinition<2>&, Points<2>);
 template void prepare_ties<3>(PairDefinition<3>&, Points<3>);
-template void evaluate_ties<2>(const PairDefinition<2>&, Points<2>, const PairState<2>&, bool,
+template void evaluate_ties<2>(const PairDefinition<2>&, Points<2>, double, bool,
                                PairEvaluation<2>&);
-template void evaluate_ties<3>(const PairDefinition<3>&, Points<3>, const PairState<3>&, bool,
+template void evaluate_ties<3>(const PairDefinition<3>&, Points<3>, double, bool,
                                PairEvaluation<3>&);
 
 }  // namespace osculate::pairing

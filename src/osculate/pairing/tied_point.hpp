@@ -18,9 +18,12 @@ struct TiedPoint {
   std::vector<Index> nodes;
   std::vector<double> weights;                       ///< w_k, of sum 0
   std::array<std::vector<double>, Dim - 1> carrier;  ///< b_ik, of sum 0
-  Vec<Dim> kept = Vec<Dim>::Zero();  ///< components of G along r_,i and their normal (turn, cross)
-  double side = 1;                   ///< -1: the carrier is the slave's, whose normal points back
-  Index facet = -1;                  ///< of the master, as in a history
+  Vec<Dim> kept = Vec<Dim>::Zero();  ///< components of G along r_,i and their unit normal
+  /// Of the last component of `kept`: what is added where initial gaps do not count
+  /// (ActiveSet::relief).
+  double relieved = 0;
+  double side = 1;   ///< -1: the carrier is the slave's, whose normal points back
+  Index facet = -1;  ///< of the master, as in a history
   projection::Feature feature = projection::Feature::face;
   Vec<Dim - 1> xi = Vec<Dim - 1>::Zero();
 };

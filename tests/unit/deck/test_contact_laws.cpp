@@ -132,6 +132,22 @@ TEST(LawKeys, SayHowManyPointsAreTied) {
 const std::string floor = "model.yaml:20: contact[0].", joint = "model.yaml:26: contact[1].",
                   top = "model.yaml:27: contact[2].";
 const std::string tied = "separation: tied, tolerance: 0.02, initial_gap: close";
+const std::string tied_keeping = "separation: tied, tolerance: 0.02";
+
+TEST(LawKeys, TiesHaveTheStiffnessOfRoughFrictionAlongTheMaster) {
+  const Built b = built(tied + "}",
+                        "separation: tied, tolerance: any, initial_gap: close}\n    friction: "
+                        "{rough: {penalty: 7}}\n    initial: ramp");
+  const auto& pair = b.model.pairs[1].definition;
+  const auto* const ties = std::get_if<pairing::Tied<2>>(&pair.separation);
+  ASSERT_NE(ties, nullptr);
+  EXPECT_EQ(ties->tolerance, pairing::any_gap);
+  EXPECT_FALSE(ties->keep_gap);
+  EXPECT_EQ(pair.overlap, pairing::InitialOverlap::ramped);
+  ASSERT_TRUE(pair.friction->as<contact::Rough>());
+  EXPECT_EQ(contact::stiffness(*pair.friction), 7);
+  EXPECT_EQ(contact::text(*pair.friction), "rough (penalty 7)");
+}
 
 TEST(LawKeys, RefuseNormalLawsThatMakeNoSense) {
   const std::string exponential = "{exponential: {pressure: 12, clearance: 0.01}}";
@@ -154,10 +170,14 @@ TEST(LawKeys, RefuseNormalLawsThatMakeNoSense) {
           {tied, "initial_gap: close",
            joint + "normal.initial_gap: closing gaps goes with separation: tied only"},
           {"tolerance: 0.02", "tolerance: -1", joint + "normal.tolerance: must be > 0, got -1"},
-          {tied + "}", tied + "}\n    friction: {rough: {penalty: 1}}",
-           "model.yaml:27: contact[1].friction: tied points do not slide: leave out friction, or "
-           "use "
-           "tied_normal"},
+          {tied + "}", tied + "}\n    friction: {tresca: {limit: 1, penalty: 1}}",
+           "model.yaml:27: contact[1].friction.tresca: tied points do not slide: leave out "
+           "friction, or use rough, whose penalty is their stiffness along the master"},
+          {tied, tied_keeping + "}\n    initial: {clearance: 0.1",
+           joint + "normal.separation: points that are held from the start keep the gap they have"},
+          {tied + "}", tied_keeping + "}\n    initial: ramp",
+           "model.yaml:27: contact[1].initial: points that keep the gap they have do not press: "
+           "leave out initial"},
           {"slave: mid.bottom\n", "slave: high.bottom\n",
            joint + "normal.separation: no point of the slave 'high.bottom' is within 0.02 of the "
                    "master "

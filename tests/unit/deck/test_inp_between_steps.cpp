@@ -1,6 +1,8 @@
 // Decks: what changes of contact from step to step, other laws, steps in time, vibrations.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "cube_nodes.hpp"
 #include "osculate/deck/inp_translate.hpp"
 #include "osculate/deck/parse.hpp"
@@ -204,6 +206,54 @@ TEST(InpBetweenSteps, LawsThatAreNoPenalty) {
       "*CONTACT PAIR, INTERACTION=DRY, TYPE=NODE TO SURFACE, ADJUST=FOOT\nSLAVE, MASTER\n";
   expect_in(part(dry + adjusted + press, "contact"), "initial: {nodes: FOOT}");
   EXPECT_EQ(message_of(dry + adjusted + press), "no error");
+}
+
+/// An interaction of what is tied, and its pair.
+std::string tied(const std::string& friction, const std::string& options = "") {
+  return "*SURFACE INTERACTION, NAME=LAW\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=TIED\n5E4\n" +
+         friction + "*CONTACT PAIR, INTERACTION=LAW, TYPE=SURFACE TO SURFACE" + options +
+         "\nSLAVE, MASTER\n";
+}
+
+// A stick slope along the surface, gaps that close, overlaps that are let in over a static step.
+TEST(InpBetweenSteps, WhatIsTied) {
+  const std::string slope = "*FRICTION\n0.3, 2E3\n";
+  const std::string text = part(tied(slope) + press, "contact");
+  expect_in(text, "normal: {penalty: 50000, separation: tied, tolerance: any, initial_gap: close}");
+  expect_in(text, "friction:\n      rough: {penalty: 2000}");
+  expect_in(text, "initial: ramp");
+  expect_in(text, "sampling: {gauss: 6}");
+  const auto has = [](const std::string& in, const std::string& word) {
+    return in.find(word) != std::string::npos;
+  };
+  EXPECT_FALSE(has(part(tied(slope) + "*STEP\n*DYNAMIC, DIRECT\n0.1, 1.\n*END STEP\n", "contact"),
+                   "initial: ramp"));
+  const std::string given = "*CLEARANCE, SLAVE=SLAVE, MASTER=MASTER, VALUE=0.1\n";
+  expect_in(part(tied(slope) + given + press, "contact"), "initial: {clearance: 0.1}");
+  EXPECT_EQ(message_of(tied(slope) + given + press), "no error");
+  expect_in(part(tied(slope, ", ADJUST=0.2") + press, "contact"), "initial: {adjust: 0.2}");
+  // without a slope, which CalculiX refuses, as stiff along the surface as across it
+  EXPECT_FALSE(has(part(tied("") + press, "contact"), "friction"));
+  const std::vector<std::string> notes = translated(tied("") + press).notes;
+  EXPECT_TRUE(std::ranges::any_of(
+      notes, [&](const std::string& note) { return has(note, "'LAW' has no stick slope"); }));
+}
+
+TEST(InpBetweenSteps, WhatIsTiedChanges) {
+  const std::string begin = tied("*FRICTION\n0.3, 2E3\n") + press + "*STEP\n*STATIC\n";
+  const std::string behavior = "*CHANGE SURFACE BEHAVIOR, INTERACTION=LAW\n*SURFACE BEHAVIOR, ",
+                    friction = "*CHANGE FRICTION, INTERACTION=LAW\n*FRICTION\n0.1, 7.\n",
+                    end = "*END STEP\n";
+  // tied no more: with the limit of its friction
+  const std::string open = behavior + "PRESSURE-OVERCLOSURE=LINEAR\n1E4\n";
+  expect_in(part(begin + open + end, "steps"), "coulomb: {mu: 0.3, penalty: 2000}");
+  expect_in(part(begin + open + friction + end, "steps"), "coulomb: {mu: 0.1, penalty: 7}");
+  EXPECT_EQ(message_of(begin + open + end), "no error");
+  // another slope of what is still tied
+  expect_in(part(begin + friction + end, "steps"), "rough: {penalty: 7}");
+  const std::string softer = behavior + "PRESSURE-OVERCLOSURE=TIED\n1E4\n";
+  expect_in(part(begin + softer + end, "steps"), "rough: {penalty: 2000}");
+  EXPECT_EQ(message_of(begin + softer + end + "*STEP\n*STATIC\n" + friction + end), "no error");
 }
 
 TEST(InpBetweenSteps, LawsOfAbaqus) {

@@ -2,6 +2,8 @@
 // do what they should is verification/pair_changes.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "osculate/contact/law/catalogue.hpp"
 #include "osculate/core/error.hpp"
 #include "osculate/deck/build.hpp"
@@ -134,6 +136,20 @@ TEST(PairChanges, AreRefusedWithTheReason) {
   expect(plain, "pair: floor, damping: {viscous: 2}", "needs the duration of every step");
   expect(plain, "pair: floor, active: false}, {pair: floor, active: true",
          "changes twice in this step");
+}
+
+// Points that may part slide steeply, however they were held before.
+TEST(PairChanges, RoughTiesThatEndMayPart) {
+  const Built b =
+      built("normal: {penalty: 500, separation: tied}, friction: {rough: {penalty: 20}}", "",
+            ", contact: [{pair: floor, normal: {penalty: 500}}]");
+  const auto coefficient = [](const std::optional<contact::FrictionLaw>& law) {
+    return law->as<contact::Rough>()->coefficient;
+  };
+  EXPECT_TRUE(std::isinf(coefficient(b.model.pairs[0].definition.friction)));
+  ASSERT_TRUE(b.model.pair_changes.at(0).friction);
+  EXPECT_EQ(coefficient(b.model.pair_changes[0].friction), contact::Rough::steep);
+  EXPECT_EQ(contact::stiffness(*b.model.pair_changes[0].friction), 20);
 }
 
 TEST(PairChanges, WhatCannotBeDampedFromTheStartCannotLater) {

@@ -110,7 +110,8 @@ TEST(Refusals, NumbersAndLaws) {
        "points that are held do not part, and an impact of theirs has no end: damping goes with "
        "separation: allowed only"},
       {[](S& s) { s.contact.separation = Separation::tied; },
-       "tied points do not slide: leave out friction"},
+       "tied points do not slide: leave out friction, or use rough, whose penalty is their "
+       "stiffness along the master"},
   });
 }
 

@@ -7,6 +7,7 @@
 #include <set>
 #include <sstream>
 
+#include "osculate/contact/law/catalogue.hpp"
 #include "osculate/core/error.hpp"
 #include "osculate/pairing/pair.hpp"
 #include "pair_sample.hpp"
@@ -73,6 +74,19 @@ TEST(Combinations, OfAPairAreReadFromItsDefinition) {
               p.separation = Tied<2>{};
             }),
             why_not(Trait::corrected, Trait::tied));
+  for (const bool slides : {true, false})
+    EXPECT_EQ(refused([&](PairDefinition<2>& p) {
+                p.separation = Tied<2>{};
+                p.friction = slides ? contact::FrictionLaw(contact::Coulomb{0.3, 10})
+                                    : contact::FrictionLaw(contact::Rough{10});
+              }),
+              slides ? why_not(Trait::slides, Trait::tied) : std::string_view());
+  for (const bool keeps : {true, false})
+    EXPECT_EQ(refused([&](PairDefinition<2>& p) {
+                p.separation = Tied<2>{1, keeps};
+                p.overlap = pairing::InitialOverlap::ramped;
+              }),
+              keeps ? why_not(Trait::relieved_overlap, Trait::keeps_gap) : std::string_view());
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 
 #include "derivative_check.hpp"
+#include "law_sample.hpp"
 #include "mortar_sample.hpp"
 #include "segment_sample.hpp"
 
@@ -77,12 +78,23 @@ void expect_tie(const ContactSample<Dim>& s, const std::string& what) {
       << "order " << report.order << " error " << report.error;
 }
 
+/// The same with a stiffness along the master of its own: a tenth, and ten times, that across it.
+template <int Dim>
+void expect_ties(const ContactSample<Dim>& s, const std::string& what) {
+  expect_tie(s, what);
+  for (const double along : {0.1 * eps, 10 * eps}) {
+    ContactSample<Dim> other = s;
+    other.pair.friction = rough(along);
+    expect_tie(other, what + ", along it " + std::to_string(along));
+  }
+}
+
 TEST(Tie, OfNodes) {
   for (const int nodes : {2, 3})
     for (const double depth : {0.0, 0.08, -0.08})
-      expect_tie(tied(make_sample(
-                     {.nodes_per_facet = nodes, .bend = nodes > 2 ? 0.02 : 0.0, .depth = depth})),
-                 "line of " + std::to_string(nodes) + " depth " + std::to_string(depth));
+      expect_ties(tied(make_sample(
+                      {.nodes_per_facet = nodes, .bend = nodes > 2 ? 0.02 : 0.0, .depth = depth})),
+                  "line of " + std::to_string(nodes) + " depth " + std::to_string(depth));
 }
 
 TEST(Tie, OfNodesInSpace) {
@@ -91,33 +103,33 @@ TEST(Tie, OfNodesInSpace) {
     for (const double depth : {0.0, 0.08, -0.08}) {
       SampleOptions3 o{.type = type, .bend = 0.03, .depth = depth};
       if (cell::is_triangle(type)) o.at = 2, o.xi = {0.3, 0.4};
-      expect_tie(tied(make_sample3(o)), std::string(cell::info(type).name));
+      expect_ties(tied(make_sample3(o)), std::string(cell::info(type).name));
     }
 }
 
 TEST(Tie, OfGaussPoints) {
   const pairing::Sampling gauss{pairing::Sampling::Rule::gauss, 2, 1};
-  expect_tie(tied(segment_sample({.slave_nodes = 3, .bend = 0.02, .sampling = gauss})), "plane");
-  expect_tie(tied(segment_sample3({.bend = 0.01, .sampling = gauss})), "space");
+  expect_ties(tied(segment_sample({.slave_nodes = 3, .bend = 0.02, .sampling = gauss})), "plane");
+  expect_ties(tied(segment_sample3({.bend = 0.01, .sampling = gauss})), "space");
 }
 
 TEST(Tie, OfMortar) {
   for (const int nodes : {2, 3})
-    expect_tie(tied(make_mortar2({.slave_nodes = nodes, .bend = 0.02, .uneven = 0.2}), true, 0.3),
-               "plane");
+    expect_ties(tied(make_mortar2({.slave_nodes = nodes, .bend = 0.02, .uneven = 0.2}), true, 0.3),
+                "plane");
   for (const cell::CellType type : {cell::CellType::quad4, cell::CellType::tri6})
-    expect_tie(tied(make_mortar3({.slave = type, .bend = 0.01}), true, 0.3), "space");
+    expect_ties(tied(make_mortar3({.slave = type, .bend = 0.01}), true, 0.3), "space");
 }
 
 // A node of the slave lies over any number of facets then.
 TEST(Tie, OfMortarOverAFineMaster) {
-  expect_tie(tied(make_mortar2({.master_facets = 80}), true, 0.3), "plane");
+  expect_ties(tied(make_mortar2({.master_facets = 80}), true, 0.3), "plane");
   const ContactSample<3> space = tied(make_mortar3({.master_cells = 16}), true, 0.3);
   std::size_t most = 0;
   for (const auto& tie : std::get<pairing::Tied<3>>(space.pair.separation).ties)
     most = std::max(most, tie.nodes.size());
   ASSERT_GT(most, 100u);
-  expect_tie(space, "space");
+  expect_ties(space, "space");
 }
 
 /// The whole slave moved by `by`.
@@ -148,6 +160,23 @@ TEST(Tie, CarriesTensionAndShear) {
   }
 }
 
+// Rough friction beside it: its penalty is the stiffness along the master, whatever pulls across
+// it.
+TEST(Tie, IsAsStiffAlongTheMasterAsItsFriction) {
+  constexpr double along = 0.2 * eps, by = 0.02;
+  PairSample s = tied(make_sample({.depth = 0}));
+  s.pair.friction = rough(along);
+  const Vec2 tangent(std::cos(0.3), std::sin(0.3));
+  for (const double lift : {by, -by}) {
+    const auto p =
+        pair_evaluation(s, lifted(s, Vec2(by * tangent + lift * turn(tangent)))).points[0];
+    EXPECT_NEAR(p.normal_traction, eps * lift, 1e-9);
+    EXPECT_NEAR(p.shear_traction[0], along * by, 1e-9);
+    EXPECT_EQ(p.status, Status::stick);
+    EXPECT_NEAR(p.stored, 0.5 * (eps + along) * by * by, 1e-12);
+  }
+}
+
 TEST(Tie, ClosesGapsOrKeepsThem) {
   const PairSample keep = tied(make_sample({.depth = -0.08}));
   EXPECT_NEAR(pair_evaluation(keep, flatten(keep.x)).points[0].normal_traction, 0, 1e-11);
@@ -166,6 +195,53 @@ TEST(Tie, LeavesFarPointsAlone) {
   EXPECT_EQ(ties_of(s), 1u);
   EXPECT_TRUE(s.committed.points[0].held);
   EXPECT_FALSE(s.committed.points[1].held);
+}
+
+// What is inside the master is let in by the share that counts; what is before it closes at once.
+TEST(Tie, OverlapsAreLetInAndGapsClosed) {
+  for (const double depth : {0.08, -0.08}) {
+    PairSample s = make_sample({.depth = depth});
+    s.pair.overlap = pairing::InitialOverlap::ramped;
+    s = tied(s, false);
+    for (const double relief : {1.0, 0.25, 0.0}) {
+      pairing::ActiveSet<2> active_set;
+      active_set.relief = relief;
+      pairing::PairEvaluation<2> work;
+      pairing::evaluate<2>(s.pair, s.x, s.committed, false, work, active_set);
+      const double counts = depth > 0 ? (1 - relief) * -depth : -depth;
+      EXPECT_NEAR(work.points[0].normal_traction, counts * eps, 1e-9) << depth << " " << relief;
+    }
+  }
+}
+
+// The gap is what is given, whatever the places are.
+TEST(Tie, ClosesAClearance) {
+  PairSample s = make_sample({.depth = 0.08});
+  s.pair.overlap = pairing::InitialOverlap::given;
+  s.pair.clearance = 0.03;
+  s = tied(s, false);
+  pairing::ActiveSet<2> active_set;
+  active_set.relief = 1;
+  pairing::PairEvaluation<2> work;
+  pairing::evaluate<2>(s.pair, s.x, s.committed, false, work, active_set);
+  EXPECT_NEAR(work.points[0].normal_traction, 0.03 * eps, 1e-9);
+}
+
+// Of any gap: those over the master that face it. The first point lies over it, the second does
+// not.
+TEST(Tie, OfAnyGapAreThoseOverTheMasterThatFaceIt) {
+  PairSample s = make_sample({.angle = 0});
+  const std::size_t first = s.x.size() - 2;
+  const auto ties_with = [&](const Vec2& second, double tolerance) {
+    s.x[first] = {3, 50};
+    s.x[first + 1] = second;
+    const PairSample t = tied(s, true, tolerance);
+    return t.committed.points[0].held ? ties_of(t) : 0;
+  };
+  EXPECT_EQ(ties_with({-2, 50}, pairing::any_gap), 1u);  // looks down
+  EXPECT_EQ(ties_with({-2, 50}, 100), 2u);
+  EXPECT_EQ(ties_with({8, 50}, pairing::any_gap), 0u);  // looks up
+  EXPECT_EQ(ties_with({8, 50}, 100), 2u);
 }
 
 // Shells that touch at the sum of their half thicknesses.
