@@ -28,7 +28,7 @@ enum class FacetType : std::uint8_t {
 ///       space: seen from outside the corners run counterclockwise
 struct Facets {
   FacetType type = FacetType::line2;
-  std::vector<Index> nodes;
+  std::vector<Index> nodes{};
 };
 
 /// A shape on a rigid body, which three nodes carry in the plane and four in space: they stand at
@@ -38,7 +38,7 @@ struct Facets {
 template <int Dim>
 struct FramedShapes {
   /// One shape; in the plane also several curves, each of which begins where the last one ends.
-  std::vector<Shape<Dim>> shapes;
+  std::vector<Shape<Dim>> shapes{};
   bool closed = false;  ///< several curves: the first one begins where the last one ends
   std::array<Index, static_cast<std::size_t>(Dim) + 1> frame{};
 };
@@ -47,9 +47,9 @@ struct FramedShapes {
 /// in the host's list of coordinates; facets that share nodes hang together.
 template <int Dim>
 struct Surface {
-  std::vector<Facets> facets;
-  FramedShapes<Dim> framed;
-  std::vector<Index> points;  ///< nodes of a slave that have no facet; they weigh 1 each
+  std::vector<Facets> facets{};
+  FramedShapes<Dim> framed{};
+  std::vector<Index> points{};  ///< nodes of a slave that have no facet; they weigh 1 each
 };
 
 }  // namespace osculate

@@ -1,0 +1,285 @@
+// A program of deal.II with contact from Osculate: two blocks of quadratic hexahedra, neo-Hooke, at
+// finite strains, one of which is pressed onto the other and dragged over it, aslant to its cells,
+// with friction.
+//
+//   blocks [FOLDER]               writes FOLDER/increments.csv and FOLDER/nodes.csv
+//   osculate run blocks.yaml      the same model with the bodies of Osculate
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_system.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/fe/mapping_q.h>
+#include <deal.II/grid/grid_generator.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/sparse_direct.h>
+#include <deal.II/lac/sparse_matrix.h>
+#include <deal.II/lac/vector.h>
+#include <deal.II/numerics/matrix_tools.h>
+
+#include <fstream>
+#include <iostream>
+
+#include "osculate/contact.hpp"
+
+using namespace dealii;
+using Numbers = Vector<double>;
+constexpr unsigned dim = 3;
+constexpr double tolerance = 1e-10;  // of the forces out of balance, over the largest ones
+
+std::span<const double> as_span(const Numbers& v) { return {v.begin(), v.size()}; }
+Numbers as_vector(std::span<const double> v) { return Numbers(v.begin(), v.end()); }
+
+/// W = mu/2 (tr C - 3) - mu ln J + lambda/2 (ln J)^2, by F: P = dW/dF and its change by dF.
+struct NeoHooke {
+  double mu, lambda;
+  Tensor<2, dim> back;  ///< F^-T
+  double pressure = 0;
+  NeoHooke(double young, double poisson)
+      : mu(young / (2 + 2 * poisson)),
+        lambda(young * poisson / ((1 + poisson) * (1 - 2 * poisson))) {}
+  Tensor<2, dim> stress(const Tensor<2, dim>& f) {
+    back = transpose(invert(f));
+    pressure = lambda * std::log(determinant(f));
+    return mu * f + (pressure - mu) * back;
+  }
+  Tensor<2, dim> change(const Tensor<2, dim>& df) const {
+    return mu * df + (mu - pressure) * back * transpose(df) * back +
+           lambda * scalar_product(back, df) * back;
+  }
+};
+
+/// Both blocks. FE_Q(2) has one number a component and vertex, edge, face and cell, and FESystem
+/// counts the components of each one after the other: number 3 n + i is direction i of node n, as
+/// Osculate wants it.
+class Blocks {
+ public:
+  Blocks() : fe(FE_Q<dim>(2), dim), dofs(grid) {
+    Triangulation<dim> lower, upper;
+    GridGenerator::subdivided_hyper_rectangle(lower, {6, 4, 2}, {-1.5, -1, 0}, {1.5, 1, 1});
+    GridGenerator::subdivided_hyper_rectangle(upper, {3, 2, 1}, {-1.2, -0.5, 1.01},
+                                              {-0.2, 0.4, 1.61});
+    GridGenerator::merge_triangulations(lower, upper, grid);
+    dofs.distribute_dofs(fe);
+    std::vector<Point<dim>> points(dofs.n_dofs());
+    DoFTools::map_dofs_to_support_points(MappingQ<dim>(1), dofs, points);
+    reference.reinit(dofs.n_dofs());
+    for (unsigned i = 0; i < dofs.n_dofs(); ++i) {
+      AssertThrow(points[i].distance(points[i - i % dim]) == 0, ExcInternalError());
+      reference[i] = points[i][i % dim];
+    }
+  }
+  unsigned size() const { return dofs.n_dofs(); }
+  double height(unsigned dof) const { return reference[dof - dof % dim + 2]; }
+
+  /// Facets at this height, as quad9: seen from outside the corners run counterclockwise, then the
+  /// middles of edges.
+  osculate::Surface<3> surface(double z) const {
+    constexpr unsigned upwards[] = {0, 1, 3, 2, 6, 5, 7, 4, 8},
+                       downwards[] = {0, 2, 3, 1, 4, 7, 5, 6, 8};
+    std::vector<types::global_dof_index> of_face(fe.dofs_per_face);
+    std::vector<osculate::Index> nodes;
+    for (const auto& cell : dofs.active_cell_iterators())
+      for (const unsigned f : {4u, 5u}) {
+        if (!cell->at_boundary(f) || std::abs(cell->face(f)->center()[2] - z) > 1e-9) continue;
+        cell->face(f)->get_dof_indices(of_face);
+        for (const unsigned k : f == 5 ? upwards : downwards)
+          nodes.push_back(of_face[dim * k] / dim);
+      }
+    return {.facets = {{osculate::FacetType::quad9, nodes}}};
+  }
+
+  /// Internal forces at coordinates x, and their derivative if there is a matrix.
+  Numbers forces(const Numbers& x, SparseMatrix<double>* matrix) const {
+    FEValues<dim> values(fe, QGauss<dim>(3), update_gradients | update_JxW_values);
+    const unsigned n = fe.dofs_per_cell;
+    std::vector<types::global_dof_index> at(n);
+    Numbers force(size()), f(n);
+    FullMatrix<double> k(n, n);
+    std::vector<Tensor<2, dim>> gradient(n), deformation(values.n_quadrature_points);
+    for (const auto& cell : dofs.active_cell_iterators()) {
+      values.reinit(cell);
+      cell->get_dof_indices(at);
+      NeoHooke material(cell->center()[2] < 1 ? 1000 : 2000, 0.3);
+      f = 0, k = 0;
+      values[FEValuesExtractors::Vector(0)].get_function_gradients(x, deformation);
+      for (const unsigned q : values.quadrature_point_indices()) {
+        const Tensor<2, dim> p = material.stress(deformation[q]);
+        for (unsigned a = 0; a < n; ++a)
+          gradient[a] = values[FEValuesExtractors::Vector(0)].gradient(a, q);
+        for (unsigned a = 0; a < n; ++a) {
+          f[a] += scalar_product(p, gradient[a]) * values.JxW(q);
+          if (!matrix) continue;
+          const Tensor<2, dim> dp = material.change(gradient[a]) * values.JxW(q);
+          for (unsigned b = 0; b < n; ++b) k(b, a) += scalar_product(dp, gradient[b]);
+        }
+      }
+      force.add(at, f);
+      if (matrix) matrix->add(at, k);
+    }
+    return force;
+  }
+
+  /// Places of the matrix of both bodies and of these entries of contact.
+  void make_pattern(std::span<const osculate::Entry> entries, SparsityPattern& pattern) const {
+    DynamicSparsityPattern dynamic(size());
+    DoFTools::make_sparsity_pattern(dofs, dynamic);
+    for (const osculate::Entry& e : entries) dynamic.add(e.row, e.column);
+    pattern.copy_from(dynamic);
+  }
+
+  Numbers reference;
+
+ private:
+  Triangulation<dim> grid;
+  FESystem<dim> fe;
+  DoFHandler<dim> dofs;
+};
+
+using Motion = std::map<types::global_dof_index, double>;  // of the coordinates that are held
+
+Numbers free_part(Numbers v, const Motion& held) {
+  for (const auto& [dof, value] : held) v[dof] = 0;
+  return v;
+}
+
+/// How much of a correction to take: the rule of `osculate run` (examples/hosts/newton.py).
+template <class Look>
+double line_search(const Look& look, double work, double norm) {
+  struct At {
+    double step, work, norm;
+    bool branched;
+  };
+  const auto at = [&](double step) {
+    const auto [w, n, b] = look(step);
+    return At{step, w, n, b};
+  };
+  const At start{0, work, norm, false}, whole = at(1);
+  const double enough = 0.05 * std::abs(work);
+  const bool crossed = work * whole.work < 0;
+  if (whole.branched || whole.norm <= 0.5 * norm || std::abs(whole.work) <= enough ||
+      (!crossed && whole.norm <= norm))
+    return 1;
+  At best = whole, now = whole, low = start, high = whole;
+  for (int i = 0; crossed && i < 20 && std::abs(best.work) > enough; ++i) {
+    now = at((low.step * high.work - high.step * low.work) / (high.work - low.work));
+    if (std::abs(now.work) < std::abs(best.work)) best = now;
+    const bool nearer = now.work * work > 0;  // to the end, not to the start
+    (nearer ? high : low).work /= 2;
+    (nearer ? low : high) = now;
+  }
+  for (int i = 0; !crossed && i < 10 && now.norm > norm; ++i)
+    if ((now = at(now.step / 2)).norm < best.norm) best = now;
+  return crossed || best.norm <= 0.999 * norm ? best.step : 1;
+}
+
+/// One increment by Newton's method; returns the iterations. The first correction starts from where
+/// the increment begins, and the motion enters through the tangent.
+int increment(const Blocks& blocks, const osculate::Evaluator<3>& contact,
+              const osculate::History<3>& history, Motion motion, Numbers& x,
+              osculate::Result<3>& result) {
+  osculate::ActiveSet<3> active = contact.predicted(history, as_span(x));
+  osculate::Result<3> tried;
+  for (int iteration = 0; iteration < 26; ++iteration) {
+    contact.evaluate(as_span(x), history, active, result);
+    SparsityPattern pattern;
+    blocks.make_pattern(result.tangent(), pattern);
+    SparseMatrix<double> matrix(pattern);
+    Numbers internal = blocks.forces(x, &matrix), residual = internal, correction(x.size());
+    residual += as_vector(result.force());
+    const double scale = std::max(internal.l2_norm(), as_vector(result.force()).l2_norm());
+    residual = free_part(residual, motion);
+    if (iteration > 0 && residual.l2_norm() <= tolerance * scale) return iteration;
+    for (const osculate::Entry& e : result.tangent()) matrix.add(e.row, e.column, e.value);
+    Numbers right = internal;
+    right += as_vector(result.branch_force());
+    right *= -1;
+    MatrixTools::apply_boundary_values(motion, matrix, correction, right, false);
+    SparseDirectUMFPACK solver;
+    solver.initialize(matrix);
+    solver.vmult(correction, right);
+    active = result.next_active_set();
+    const Numbers direction = free_part(correction, motion);
+    const auto look = [&](double step) {
+      Numbers there = x;
+      there.add(step, correction);
+      contact.evaluate(as_span(there), history, active, tried, {.tangent = false});
+      Numbers rest = blocks.forces(there, nullptr);
+      rest += as_vector(tried.force());
+      rest = free_part(rest, motion);
+      return std::tuple(direction * rest, rest.l2_norm(), tried.branched());
+    };
+    const bool search = iteration > 0 && !result.branched();
+    x.add(search ? line_search(look, direction * residual, residual.l2_norm()) : 1.0, correction);
+    for (auto& [dof, value] : motion) value = 0;
+  }
+  throw std::runtime_error("it did not converge");
+}
+
+/// A row of increments.csv, by the names of columns of history.csv: what contact does to the upper
+/// block.
+std::string row(const Blocks& blocks, int iterations, const osculate::Result<3>& result) {
+  Tensor<1, dim> force;
+  for (unsigned dof = 0; dof < blocks.size(); ++dof)
+    if (blocks.height(dof) > 1.005) force[dof % dim] -= result.force()[dof];
+  double normal = 0, work = 0;
+  int slipping = 0;
+  for (const osculate::ContactPoint<3>& p : result.points()) {
+    normal -= p.weight * p.normal_traction;
+    work += p.friction_work;
+    slipping += p.status == osculate::Status::slip;
+  }
+  std::ostringstream out;
+  out << std::setprecision(17) << iterations << ',' << force[0] << ',' << force[1] << ','
+      << force[2] << ',' << normal << ',' << work << ',' << slipping << '\n';
+  return out.str();
+}
+
+/// Places, displacements and reactions of the nodes.
+void write_nodes(const std::string& path, const Blocks& blocks, const Numbers& x,
+                 const osculate::Result<3>& result) {
+  std::ofstream file(path);
+  file << std::setprecision(17);
+  Numbers displacement = x, reaction = blocks.forces(x, nullptr);
+  displacement -= blocks.reference;
+  reaction += as_vector(result.force());
+  for (unsigned n = 0; n < blocks.size(); n += dim) {
+    for (unsigned i = n; i < n + dim; ++i) file << blocks.reference[i] << ',';
+    for (unsigned i = n; i < n + dim; ++i) file << displacement[i] << ',';
+    for (unsigned i = n; i < n + dim; ++i) file << reaction[i] << (i == n + 2 ? '\n' : ',');
+  }
+}
+
+int main(int argc, char** argv) {
+  const Blocks blocks;
+  osculate::Contact<3> description;
+  description.master = blocks.surface(1);
+  description.slave = blocks.surface(1.01);
+  description.sampling = {osculate::Sampling::Rule::gauss, 4};
+  description.normal = osculate::Penalty{5e4};
+  description.friction = osculate::Coulomb{.mu = 0.3, .stiffness = 2.5e4};
+  const osculate::Evaluator<3> contact(description, as_span(blocks.reference));
+
+  Numbers x = blocks.reference;
+  osculate::History<3> history = contact.initial_history(as_span(x));
+  osculate::Result<3> result;
+  std::string rows = "iterations,force_x,force_y,force_z,normal_force,friction_work,slipping\n";
+  std::cout << rows;
+  for (int i = 0; i < 28; ++i) {
+    const Point<dim> step =
+        i < 4 ? Point<dim>(0, 0, -0.08 / 4) : Point<dim>(0.96 / 24, 0.24 / 24, 0);
+    Motion motion;
+    for (unsigned dof = 0; dof < blocks.size(); ++dof) {
+      if (blocks.height(dof) < 1e-9) motion[dof] = 0;
+      if (blocks.height(dof) > 1.61 - 1e-9) motion[dof] = step[dof % dim];
+    }
+    rows += row(blocks, increment(blocks, contact, history, motion, x, result), result);
+    std::cout << rows.substr(rows.rfind('\n', rows.size() - 2) + 1);
+    history = result.committed();
+  }
+  if (argc == 1) return 0;
+  std::ofstream(argv[1] + std::string("/increments.csv")) << rows;
+  write_nodes(argv[1] + std::string("/nodes.csv"), blocks, x, result);
+}
