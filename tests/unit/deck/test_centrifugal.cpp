@@ -157,6 +157,27 @@ TEST(Centrifugal, SoftensBucklingWhereBodiesOfSmallStrainFeelIt) {
   EXPECT_NEAR(buckling_factor("deformed", 100 * growing, 0), growing, 1e-3 * none);
 }
 
+/// Explicit steps take them where bodies are, too.
+TEST(Centrifugal, GrowsInExplicitSteps) {
+  const auto end = [](const std::string& scheme, const std::string& places) {
+    return moved_by(
+        "osculate: 1\n"
+        "mesh: {generate: {b: {box: {x: [0, 1], y: [0, 0.2], elements: [5, 1]}}}}\n"
+        "materials: {m: {st_venant_kirchhoff: {E: 100, nu: 0, density: 1}}}\n"
+        "sections: [{on: b, material: m, element: plane_stress, kinematics: finite}]\n"
+        "amplitudes: {at_once: [[0, 1], [1, 1]]}\n"
+        "steps: [{name: turn, increments: 200, duration: 0.2, dynamics: {" +
+        scheme +
+        "mass: lumped}, prescribe: [{on: b, uy: 0}, {on: b.left, ux: 0}], centrifugal: [{on: b, "
+        "speed_squared: 60, from: [0, 0], to: [0, 1], amplitude: at_once, places: " +
+        places + "}]}]\n");
+  };
+  const std::string is_explicit = "scheme: central_differences, ";
+  const Eigen::VectorXd u = end("", "automatic");
+  EXPECT_LT((end(is_explicit, "automatic") - u).norm(), 1e-3 * u.norm());
+  EXPECT_GT((end(is_explicit, "undeformed") - u).norm(), 0.1 * u.norm());
+}
+
 TEST(Centrifugal, ActsOnMasses) {
   const std::string model =
       "osculate: 1\n"
