@@ -174,7 +174,9 @@ TEST(LawKeys, RefuseNormalLawsThatMakeNoSense) {
            "model.yaml:27: contact[1].friction.tresca: tied points do not slide: leave out "
            "friction, or use rough, whose penalty is their stiffness along the master"},
           {tied, tied_keeping + "}\n    initial: {clearance: 0.1",
-           joint + "normal.separation: points that are held from the start keep the gap they have"},
+           "model.yaml:27: contact[1].initial: points that are held from the start keep the gap "
+           "they "
+           "have"},
           {tied + "}", tied_keeping + "}\n    initial: ramp",
            "model.yaml:27: contact[1].initial: points that keep the gap they have do not press: "
            "leave out initial"},
