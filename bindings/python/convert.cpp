@@ -79,9 +79,8 @@ class Converter {
     out.kind = Kind::map;
     for (const py::handle item : items) {
       const auto [key, value] = item.cast<std::pair<py::object, py::object>>();
-      const bool is_on = key.ptr() == Py_True;  // what PyYAML makes of the word
-      if (!is_on && !py::isinstance<py::str>(key)) fail(path, "a key must be a word");
-      const std::string name = is_on ? "on" : key.cast<std::string>();
+      if (!py::isinstance<py::str>(key)) fail(path, "a key must be a word");
+      const std::string name = key.cast<std::string>();
       if (name.empty()) fail(path, "a key must be a word");
       const std::string below = path.empty() ? name : path + "." + deck::printable(name);
       out.entries.push_back({name, 0, node(value, below, depth + 1)});

@@ -37,18 +37,6 @@ class Runs(unittest.TestCase):
     def program(self, *arguments):
         return subprocess.run([PROGRAM, *map(str, arguments)], cwd=self.folder, capture_output=True, text=True)
 
-    def test_on_as_pyyaml_reads_it(self):
-        def read(node):
-            if isinstance(node, list):
-                return [read(n) for n in node]
-            if isinstance(node, dict):
-                return {True if key == "on" else key: read(value) for key, value in node.items()}
-            return node
-        ours, theirs = osculate.check(block()), osculate.check(read(block()))
-        self.assertEqual(ours, theirs)
-        with self.assertRaisesRegex(osculate.InputError, "a key must be a word"):
-            osculate.check({**block(), False: 1})
-
     def test_a_file_a_dictionary_and_the_program_give_the_same_bytes(self):
         self.program("run", "model.yaml", "-o", "program")
         osculate.run(self.path("model.yaml"), self.path("file"))
