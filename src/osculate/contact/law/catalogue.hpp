@@ -19,11 +19,12 @@
 namespace osculate::contact {
 
 // The laws there are. The first normal law is that of pairs that name none.
-struct NormalLaws
-    : std::variant<NormalPenalty, NormalExponential, NormalTable, NormalDecaying, NormalTensile, UserNormal> {
+struct NormalLaws : std::variant<NormalPenalty, NormalExponential, NormalTable, NormalDecaying,
+                                 NormalTensile, UserNormal> {
   using variant::variant;
 };
-struct FrictionLaws : std::variant<Coulomb, Tresca, Rough, RateAndState, ViscousFriction, UserFriction> {
+struct FrictionLaws
+    : std::variant<Coulomb, Tresca, Rough, RateAndState, ViscousFriction, UserFriction> {
   using variant::variant;
 };
 struct DampingLaws : std::variant<Viscous, Restitution> {
