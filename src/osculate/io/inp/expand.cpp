@@ -197,30 +197,30 @@ class Expander : private Fibers {
 
   /// From the step on that holds a displacement of a shell's node its middle keeps between bottom
   /// and top in that direction; from the step on that holds a rotation of a beam's node the middles
-  /// of the edges of its section keep between their ends.
+  /// of the edges of its section keep between their ends. Hollow sections are held in the mean.
   void straighten(Index node, const ThinGroup& group, const Fiber& fiber) {
+    const auto held = cards_.held.find(node);
     const bool layered = !group.section->layers.empty();  // levels at middles of sides, too
+    if (held == cards_.held.end() || group.section->is_hollow()) return;
     if (!group.has_middle && !layered) return;
-    if (is_plate(group)) {
-      if (cards_.held_along_axes.contains(node)) return;
-      for (int k = 0; k < 3; ++k) {
-        const std::size_t first = mesh_.relations.size();
-        if (layered)
-          straighten_levels(group, fiber, k);
-        else
-          add_mean(fiber[1], {fiber[0], fiber[2]}, k);
-        for (std::size_t r = first; r < mesh_.relations.size(); ++r)
-          mesh_.relations[r].from = {node, k};
-      }
+    const std::size_t first = mesh_.relations.size();
+    if (!is_plate(group)) {
+      if (!held->second[3] && !held->second[4] && !held->second[5]) return;
+      for (std::size_t m = 0; m < 4; ++m) add_mean(fiber[4 + m], {fiber[m], fiber[(m + 1) % 4]});
+      for (std::size_t r = first; r < mesh_.relations.size(); ++r)
+        mesh_.relations[r].from = {out_.rotations.at(node), -1};
       return;
     }
-    const auto turns = out_.rotations.find(node);
-    if (turns == out_.rotations.end()) return;
-    for (int k = 0; k < 3; ++k)
-      for (std::size_t m = 0; m < 4; ++m) {
-        add_mean(fiber[4 + m], {fiber[m], fiber[(m + 1) % 4]}, k);
-        mesh_.relations.back().from = {turns->second, -1};
-      }
+    if (cards_.held_along_axes.contains(node)) return;
+    for (int k = 0; k < 3; ++k) {
+      if (!held->second[static_cast<std::size_t>(k)]) continue;
+      if (layered)
+        straighten_levels(group, fiber, k);
+      else
+        add_mean(fiber[1], {fiber[0], fiber[2]}, k);
+    }
+    for (std::size_t r = first; r < mesh_.relations.size(); ++r)
+      mesh_.relations[r].from = {node, mesh_.relations[r].terms[0].direction};
   }
 
   /// How a knot may stretch: beams of one direction in their plane, others alike all around.

@@ -30,7 +30,8 @@ struct Expansion {
 /// corners it was expanded to. Where elements do not continue each other (thin_groups) it is a knot
 /// instead: with finite steps a set of nodes that move as one, else relations, with which it may
 /// stretch. From the step on that holds a node of a shell of second order, or a rotation of one of
-/// a beam, the middles of the edges of its section stay straight. Rotations that the deck holds or
+/// a beam, the middles of the edges of its section stay straight, where the deck holds them.
+/// Rotations that the deck holds or
 /// loads are small, the mean over the corners of the rotation about the axes; a node of its own has
 /// them as displacements. Ends of trusses are joined by the means alone; that the first end does
 /// not turn about the truss is one relation more.

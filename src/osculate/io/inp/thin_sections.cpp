@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "osculate/io/inp/loaded_sets.hpp"
 
@@ -70,13 +69,13 @@ class Reader {
     for (const Card& card : deck_.cards) {
       if (card.keyword == "NODALTHICKNESS") read_thickness(card);
       if (card.keyword == "NORMAL") read_normals(card);
-      if (card.keyword == "BOUNDARY") read_rotations(card, true);
-      if (card.keyword == "CLOAD") read_rotations(card, false);
+      if (card.keyword == "BOUNDARY") read_directions(card, true);
+      if (card.keyword == "CLOAD") read_directions(card, false);
       if (card.keyword == "TRANSFORM") add_named(option(card, "NSET"), transformed_);
       read_joined(card);
     }
-    std::ranges::set_intersection(held_, transformed_,
-                                  std::inserter(out_.held_along_axes, out_.held_along_axes.end()));
+    for (const auto& [node, directions] : out_.held)
+      if (transformed_.contains(node)) out_.held_along_axes.insert(node);
     return std::move(out_);
   }
 
@@ -264,9 +263,9 @@ class Reader {
     }
   }
 
-  /// Nodes that are held, and rotations that are held or loaded; what is wrong in the lines the
-  /// translation tells.
-  void read_rotations(const Card& card, bool of_boundary) {
+  /// Directions of nodes that are held, rotations that are held or loaded; what is wrong in the
+  /// lines the translation tells.
+  void read_directions(const Card& card, bool of_boundary) {
     for (const Line& line : lines_of(deck_, card)) {
       Fields fields(deck_, line);
       const std::string_view nodes = fields.next().value_or("");
@@ -277,12 +276,10 @@ class Reader {
       if (first)
         for (int k = *first; k <= std::min(last.value_or(*first), 6); ++k) directions.push_back(k);
       for (const int k : directions) {
-        if (k < 4 && !of_boundary) continue;
+        if (k < 1 || (k < 4 && !of_boundary)) continue;
         for (const Index node : nodes_of(nodes, line.at)) {
-          if (k < 4)
-            held_.insert(node);
-          else
-            out_.rotations[node][static_cast<std::size_t>(k - 4)] = true;
+          if (of_boundary) out_.held[node][static_cast<std::size_t>(k - 1)] = true;
+          if (k >= 4) out_.rotations[node][static_cast<std::size_t>(k - 4)] = true;
         }
       }
     }
@@ -329,7 +326,7 @@ class Reader {
   const RawMesh& raw_;
   const Numbering& numbering_;
   Members& members_;
-  std::set<Index> held_, transformed_;
+  std::set<Index> transformed_;
   ThinCards out_;
 };
 

@@ -43,6 +43,7 @@ struct ThinCards {
   std::map<Index, std::array<double, 2>> thickness;  ///< by node
   std::map<std::pair<Index, Index>, Vec3> normals;   ///< by element and node
   std::map<Index, std::array<bool, 3>> rotations;    ///< by node: held, turned or with a moment
+  std::map<Index, std::array<bool, 6>> held;         ///< by node: directions of `*BOUNDARY`
   std::set<Index> held_along_axes;                   ///< nodes of `*BOUNDARY` with a `*TRANSFORM`
   std::set<Index> joined;  ///< nodes that `*EQUATION`, `*MPC` or `*RIGID BODY` name
 };
@@ -63,7 +64,7 @@ struct ThinCards {
 
 /// From `*SHELL SECTION`, `*BEAM SECTION`, `*BEAM GENERAL SECTION`, `*SOLID SECTION` of trusses,
 /// `*NODAL THICKNESS`,
-/// `*NORMAL`, rotations in `*BOUNDARY` and `*CLOAD`, and nodes that `*TRANSFORM`, `*EQUATION`,
+/// `*NORMAL`, `*BOUNDARY`, rotations in `*CLOAD`, and nodes that `*TRANSFORM`, `*EQUATION`,
 /// `*MPC` and `*RIGID BODY` name. Plane elements with a section are expanded
 /// where solids, shells, beams or trusses have one, too; beside axisymmetric ones their thickness
 /// is a 180th, as in CalculiX.
