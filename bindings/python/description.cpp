@@ -80,11 +80,11 @@ constexpr Words<Smoothing::Kind, 3> smoothings{{{"none", Smoothing::Kind::none},
 /// A number of a law or the points of its curve, `name` in it.
 void read_value(NamedLaw& law, const std::string& name, py::handle value) {
   const std::string what = name == law.law ? name : law.law + ": " + name;
-  if (py::isinstance<py::str>(value))
+  if (py::isinstance<py::str>(value) && (name == "library" || name == "function"))
     law.texts.emplace_back(name, as<std::string>(value, what, kind<std::string>));
   else if (name == "constants")
     law.constants = as<std::vector<double>>(value, what, "a list of numbers");
-  else if (py::hasattr(value, "__len__"))
+  else if (py::hasattr(value, "__len__") && !py::isinstance<py::str>(value))
     law.points = as<Pairs>(value, what, kind<Pairs>);
   else
     law.numbers.emplace_back(name, as<double>(value, what, kind<double>));

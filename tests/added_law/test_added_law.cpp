@@ -50,10 +50,11 @@ TEST(AddedLaw, IsInSchemaAndDocumentation) {
   EXPECT_THAT(schema, HasSubstr("\"saturating\""));
   EXPECT_THAT(
       deck::explain_model_key("contact.normal"),
-      HasSubstr("a penalty, or one of exponential, table, decaying, tensile and quadratic."));
+      HasSubstr("a penalty, or one of exponential, table, decaying, tensile, user and quadratic."));
   EXPECT_THAT(
       deck::explain_model_key("friction"),
-      HasSubstr("Exactly one of: coulomb, tresca, rough, rate_and_state, viscous, saturating"));
+      HasSubstr(
+          "Exactly one of: coulomb, tresca, rough, rate_and_state, viscous, user, saturating"));
   EXPECT_THAT(deck::explain_model_key("saturating.least"), HasSubstr("default: none"));
   EXPECT_THAT(deck::explain_model_key("saturating.penalty"), HasSubstr("against shear"));
 }
@@ -69,7 +70,7 @@ TEST(AddedLaw, IsRefusedWithItsKeys) {
             at + "quadratic: there is a table law already: use one of them");
   EXPECT_EQ(refusal(edited("quadratic:", "penalty: 5, quadratic:")),
             at + "penalty: there is another law already: use one of penalty, exponential, table, "
-                 "decaying, tensile, "
+                 "decaying, tensile, user, "
                  "quadratic");
   EXPECT_THAT(refusal(edited("factor: 400}", "factor: 400}, separation: tied")),
               HasSubstr("holding points needs a stiffness in tension"));

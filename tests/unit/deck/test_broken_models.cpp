@@ -52,7 +52,7 @@ TEST(BrokenModels, UnknownKeysNameTheNearest) {
        "limits)"},
       {"penalty: 2.1e6}\n    friction", "penalty: 2.1e6, <<: 1}\n    friction",
        "model.yaml:16: contact[0].normal: unknown key '<<'; known: penalty, exponential, table, "
-       "decaying, tensile, "
+       "decaying, tensile, user, "
        "damping, separation, tolerance, initial_gap"},
   });
 }
@@ -73,7 +73,7 @@ TEST(BrokenModels, MissingKeysNameTheParent) {
        "model.yaml:17: contact[0].friction.coulomb: required key 'mu' is missing"},
       {"{coulomb: {mu: 0.3, penalty: 2.1e6}}", "{}",
        "model.yaml:17: contact[0].friction: needs one of coulomb, tresca, rough, rate_and_state, "
-       "viscous"},
+       "viscous, user"},
       {"{on: floor, of: normal_force}", "{on: floor}",
        "model.yaml:39: output.history[1]: required key 'of' is missing"},
   });

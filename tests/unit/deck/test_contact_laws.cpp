@@ -157,7 +157,7 @@ TEST(LawKeys, RefuseNormalLawsThatMakeNoSense) {
       {
           {exponential, "{penalty: 1, table: [[0, 0], [1, 1]]}",
            floor + "normal.penalty: there is another law already: use one of penalty, exponential, "
-                   "table, decaying, tensile"},
+                   "table, decaying, tensile, user"},
           {"clearance: 0.01}}", "clearance: 0}}",
            floor + "normal.exponential.clearance: must be > 0, got 0"},
           {"clearance: 0.01}}", "clearance: 0.01}, separation: no_separation}",

@@ -57,7 +57,9 @@ TEST(Explain, KeysBelow) {
       "    rough                No sliding while in contact. (a map)\n"
       "    rate_and_state       Friction by sliding speed and by the age of the contact. (a map)\n"
       "    viscous              Shear traction in proportion to the sliding speed. (a map)\n"
-      "    Exactly one of: coulomb, tresca, rough, rate_and_state, viscous\n"
+      "    user                 The largest shear traction by a function of a shared library "
+      "(user_law.h, docs/user_law.md). (a map)\n"
+      "    Exactly one of: coulomb, tresca, rough, rate_and_state, viscous, user\n"
       "  Example: friction: {coulomb: {mu: 0.3, penalty: 2.1e6}}\n");
   const std::string root = explain_model_key("");
   for (const Key& key : model_spec().keys)

@@ -125,7 +125,7 @@ struct UserFriction : UserLaw<osculate_user_friction> {
             core::Param<UserFriction>{
                 .key = "timed",
                 .unit = "1",
-                .doc = "1: it asks how long an increment lasts; every step "
+                .doc = "With 1 it asks how long an increment lasts; every step "
                        "needs a duration.",
                 .slot = &UserFriction::timed,
                 .range = {.lower = 1, .upper = 1, .with_lower = true, .with_upper = true},
