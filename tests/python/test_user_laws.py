@@ -71,7 +71,7 @@ class Points(unittest.TestCase):
                           ({"user": {"function": "f", "penalty": 1.0}}, "an address"),
                           ({"user": {"function": "f", "library": "none.so", "penalty": 1.0}}, "there is no file"),
                           ({"coulomb": {"mu": 0.3, "penalty": 1.0, "constants": [1.0]}}, "no constants"),
-                          ({"user": {"function": "0x1", "name": "a", "penalty": 1.0}}, "unknown number 'name'")):
+                          ({"user": {"function": "0x1", "name": 1.0, "penalty": 1.0}}, "unknown number .name.")):
             with self.assertRaisesRegex(osculate.Refused, said):
                 space(friction=law)
 
@@ -173,9 +173,9 @@ class Compiled(unittest.TestCase):
     def test_what_is_missing_is_said_with_its_place(self):
         with open(self.model) as file:
             text = file.read()
-        for old, new, said in (("function: polished", "function: polish", r"drawbead.yaml:15: .*no function 'polish'"),
+        for old, new, said in (("function: polished", "function: polish", r"drawbead.yaml:14: .*no function 'polish'"),
                                ("library: laws.so, function: asperities", "library: law.so, function: asperities",
-                                r"drawbead.yaml:14: .*there is no file")):
+                                r"drawbead.yaml:13: .*there is no file")):
             with open(self.model, "w") as file:
                 file.write(text.replace(old, new))
             with self.assertRaisesRegex(osculate.InputError, said):
