@@ -35,7 +35,7 @@ typedef struct osculate_friction_point {
   double trial;     /* |t_trial|: the elastic predictor */
   double stiffness; /* eps_T: (trial - limit) / stiffness is what slides in this increment */
   double distance;  /* that the point has slid since it touched, until the last increment */
-  double duration;  /* of the increment; 0: not known (the law's `timed` asks for it) */
+  double duration;  /* of the increment; 0: not known. Above 0 with the law's `timed` */
   double slid;      /* in this increment, where `next` is asked for (pressure and trial are NaN
                        then); else NaN */
   double memory[2]; /* as left at the last increment; 0 at first touch */

@@ -230,18 +230,24 @@ def at_time(states, time):
 
 
 def difference_at_all_times(ours, theirs, without=frozenset()):
-    """(Largest difference, its time, number of nodes of the last time) of states of times that both have."""
+    """(Largest difference, its time, number of nodes of the last time) of states of times that both have. No number
+    where the last one in which something moves is not among them."""
     largest = max((math.hypot(*u[:3]) for state in theirs.values() for u in state.values()), default=0.0)
-    worst, when, nodes = math.nan, math.nan, 0
+    worst, when, nodes, ends = math.nan, math.nan, 0, False
     for time, state in theirs.items():
         here = {node: u for node, u in at_time(ours, time).items() if node not in without}
         size, found, count = difference(here, state)
-        if count and not math.isnan(found):
+        if size == 0:
+            continue
+        ends = count > 0 and not math.isnan(found)
+        if count:
             found *= size / max(size, 0.01 * largest)
             nodes = count
             if not found <= worst:
                 worst, when = found, time
-    return worst, when, nodes
+            if math.isnan(found):
+                return math.nan, time, nodes
+    return worst if ends else math.nan, when, nodes
 
 
 def difference(ours, theirs):

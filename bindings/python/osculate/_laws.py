@@ -41,6 +41,11 @@ def _address(prototype, function):
     return hex(ctypes.cast(_kept[-1], ctypes.c_void_p).value)
 
 
+def forget():
+    """What was raised in a run or evaluation that has ended in another way."""
+    _raised.clear()
+
+
 def reraise():
     """What a function of the user has raised first, if one has."""
     if _raised:
@@ -93,7 +98,9 @@ def friction_law(limit, memory=None, *, timed=False, penalty=None):
             pressure=at.pressure, trial=at.trial, stiffness=at.stiffness, distance=at.distance,
             duration=at.duration, slid=at.slid, memory=tuple(at.memory))
         if at.slid == at.slid:  # else it is NaN
-            at.next[:] = memory(point) if memory else (0, 0)
+            if memory:
+                at.next[:] = (np.nan, np.nan)  # where it raises
+                at.next[:] = memory(point)
         else:
             at.limit, at.d_trial, at.d_pressure = limit(point)
 
@@ -124,9 +131,8 @@ def material(stress, *, state=0, density=0.0):
     def answer(*arguments):
         now, kept, tangent = _array(arguments[0], 6), _array(arguments[1], state), _array(arguments[2], 6, 6)
         strain, change, duration = _array(arguments[10], 6), _array(arguments[11], 6), _array(arguments[13], 1)
-        answers = stress(strain.copy(), change.copy(), kept.copy(), float(duration[0]))
-        now[:] = np.nan
-        now[:], tangent[:], kept[:] = answers
+        now[:] = np.nan  # where it raises
+        now[:], tangent[:], kept[:] = stress(strain.copy(), change.copy(), kept.copy(), float(duration[0]))
 
     law = {"function": _address(_UMAT, answer), "state": state}
     if density:

@@ -375,6 +375,7 @@ def run(model, folder=None, *, mesh=None, base=None, parameters=None, until=None
     target = "" if folder is None else os.fspath(folder)
     watch = None if on_increment is None else lambda *state: on_increment(State(*state))
     main = threading.current_thread() is threading.main_thread()
+    _laws.forget()
     with contextlib.ExitStack() as files:
         path, content = _model(model, mesh, base, lambda given: files.enter_context(
             _MeshFile(given, target.rstrip("/") + ".msh")).path)
@@ -382,6 +383,7 @@ def run(model, folder=None, *, mesh=None, base=None, parameters=None, until=None
             path, content, target, _settings(parameters), until or "", threads, restart, max_iterations,
             float(max_minutes), watch, say, main)
     if error is not None and not isinstance(error, KeyboardInterrupt):
+        _laws.forget()
         raise error
     _laws.reraise()
     if json.loads(summary)["status"] == "checked":

@@ -38,19 +38,27 @@ std::size_t end_for_ties(const std::vector<Step>& steps) {
   return static_cast<std::size_t>(std::ranges::find_if(steps, changes_equations) - steps.begin());
 }
 
-/// What is prescribed in a period, by it or by the steps before. A dof that is not prescribed
-/// through all of it has no course.
+model::Amplitude points_of(const Description& description, const std::string& amplitude) {
+  if (amplitude.empty()) return {};
+  return description.find_amplitude(amplitude)->points;
+}
+
+/// What is prescribed in a period, by it or by the steps before: with periods that begin later than
+/// the analysis where it is at their beginning, then at the end of each step. A dof that is not
+/// prescribed through all of it has no course.
 template <int Dim>
 PrescribedCourses prescribed_courses(const BuildContext<Dim>& c, const Period& in) {
   PrescribedCourses courses;
   const std::vector<Step>& steps = c.description.steps;
   for (std::size_t s = 0; s < in.until; ++s) {
     const bool begins = s <= in.from;  // no step of the period is over
+    const bool has_begun = in.from > 0 && s == in.from;
     for (auto& [dof, course] : courses) {
       if (course.steps.empty()) continue;
-      const double value = course.steps.back().value;
+      const PrescribedCourse::OfStep last = course.steps.back();
+      const model::Ramp ramp{0, last.value, points_of(c.description, last.amplitude)};
       if (begins) course.steps.clear();
-      course.steps.push_back({value, {}});
+      course.steps.insert(course.steps.end(), has_begun ? 2 : 1, {ramp.value(1), {}});
     }
     for (const Release& r : steps[s].release)
       for_each_displacement(c, r, [&](const OneDisplacement& d, std::size_t) {
@@ -68,7 +76,7 @@ PrescribedCourses prescribed_courses(const BuildContext<Dim>& c, const Period& i
         for (const OneDisplacement& d :
              displacements(c, p.on, static_cast<Component>(i), Idle::left_out)) {
           const auto [at, fresh] = courses.try_emplace(d.dof);
-          if (fresh && begins) at->second.steps.emplace_back();
+          if (fresh && begins && !has_begun) at->second.steps.emplace_back();
           if (!at->second.steps.empty())
             at->second.steps.back() = {d.sign * p.values[i]->value,
                                        p.amplitude ? p.amplitude->value : std::string{}};

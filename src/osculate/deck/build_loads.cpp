@@ -246,10 +246,17 @@ Channel new_channel(const BuildContext<Dim>& c, int kind, const Load& load, int 
   if (kind == LoadKind::body_force) channel.unit = body_force_unit(c, load, i, gone);
   if (kind == LoadKind::centrifugal) begin_centrifugal(c, load, gone, channel);
   if (kind == LoadKind::pressure) channel.facets = loaded_sides(c, load.on, gone);
+  const std::set<Index>& bare = c.bare_nodes.at(step);
   std::erase_if(channel.unit, [&](const auto& entry) {
     return entry.first < Dim * static_cast<Dof>(c.model().reference.size()) &&
-           c.bare_nodes.at(step).contains(entry.first / Dim);
+           bare.contains(entry.first / Dim);
   });
+  if (channel.centrifugal.cells && !bare.empty()) {
+    auto there = std::make_shared<std::vector<model::CentrifugalLoad::Cell>>();
+    for (const model::CentrifugalLoad::Cell& cell : *channel.centrifugal.cells)
+      if (cell.nodes.size() > 1 || !bare.contains(cell.nodes[0])) there->push_back(cell);
+    channel.centrifugal.cells = std::move(there);
+  }
   channel.resultant = channel.facets.empty() ? resultant(c.model(), channel.unit)
                                              : resultant(c.model(), channel.facets);
   return channel;

@@ -2,12 +2,11 @@
 // layer that knows which laws there are.
 #include <fmt/format.h>
 
-#include <filesystem>
-
 #include "osculate/contact/law/catalogue.hpp"
 #include "osculate/contact/law/every_law.hpp"
 #include "osculate/core/text.hpp"
 #include "osculate/deck/model_spec.hpp"
+#include "osculate/deck/open_law.hpp"
 #include "osculate/deck/params.hpp"
 #include "osculate/deck/parse_parts.hpp"
 
@@ -25,8 +24,7 @@ std::vector<Key> law_keys() {
 template <class Laws, class T>
 GivenLaw<contact::Law<Laws>> given(const Value& v) {
   T law = params_of<T>(v);
-  if constexpr (requires { law.open(std::string()); })
-    require_none(law.open(std::filesystem::path(v.mark.file).parent_path().string()), v);
+  open_law(law, v);
   GivenLaw<contact::Law<Laws>> out{law, false, v.mark, std::nullopt, v.mark};
   for (const core::Param<T>& p : T::params()) {
     const Value* const value = value_of(v, p);

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "osculate/deck/inp_steps.hpp"
 #include "osculate/io/inp/loaded_sets.hpp"
@@ -167,12 +168,17 @@ void read_centrifugal(const InpReading& r, const LoadLine& load) {
   const int axis_number = static_cast<int>(known - axes.begin());
   const std::string name = io::inp::element_set_name(load.elements);
   const std::vector<InpMass> masses = inp_masses(r.m, name);
-  for (const InpMass& one : masses) turn(r, load, one.node, axis_number, speed);
+  // The load acts on all masses of a node: where some are not named, as much as is theirs.
+  std::map<std::string, double> named, all;
+  for (const InpMass& one : masses) named[one.node] += one.mass;
+  for (const InpMass& one : inp_masses(r.m, io::inp::every_element)) all[one.node] += one.mass;
+  for (const auto& [node, mass] : named)
+    turn(r, load, node, axis_number, speed * mass / all.at(node));
   tell_of_vibrations(r, load, !masses.empty());
   if (!masses.empty() && !r.m.sets.contains({SetKind::elements, io::inp::capitals(name)})) return;
   const std::string& on = set_of(r.m, load.line.at, name, {SetKind::elements});
-  tell_of_several(r, load, on, axis_number);
   turn(r, load, on, axis_number, speed);
+  tell_of_several(r, load, on, axis_number);
 }
 
 /// The one thickness of shells, whose edges are faces of solids.

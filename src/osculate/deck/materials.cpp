@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <limits>
 #include <span>
 
 #include "osculate/core/text.hpp"
 #include "osculate/deck/bind.hpp"
 #include "osculate/deck/model_spec.hpp"
+#include "osculate/deck/open_law.hpp"
 #include "osculate/deck/params.hpp"
 #include "osculate/material/law.hpp"
 
@@ -130,8 +130,7 @@ BoundKey<Material> relaxation_key() {
 template <class T>
 T law_of(const Value& v) {
   T law = params_of<T>(v);
-  if constexpr (requires { law.open(std::string()); })
-    require_none(law.open(std::filesystem::path(v.mark.file).parent_path().string()), v);
+  open_law(law, v);
   return law;
 }
 

@@ -64,6 +64,8 @@ TEST(InpSprings, CentrifugalForcesOfMasses) {
       "*ELEMENT, TYPE=MASS, ELSET=M\n5, 22\n*MASS, ELSET=M\n2.\n";
   const std::string turn = "*DLOAD\nM, CENTRIF, 5., 0., 0., 0., 0., 0., 1.\n";
   EXPECT_NEAR(run_deck(cube + mass + held + step(turn)).displacement(22).x(), 0.25, 1e-12);
+  const std::string more = "*ELEMENT, TYPE=MASS, ELSET=M2\n6, 22\n*MASS, ELSET=M2\n6.\n";
+  EXPECT_NEAR(run_deck(cube + mass + more + held + step(turn)).displacement(22).x(), 0.25, 1e-12);
   EXPECT_NEAR(run_deck(cube + mass + held + step(turn, ", NLGEOM")).displacement(22).x(), 1.0 / 3,
               1e-9);
   const auto notes = [&](const std::string& first, const std::string& second) {

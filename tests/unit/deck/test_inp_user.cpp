@@ -100,7 +100,7 @@ TEST(UserMaterial, IsRefusedInAModelFile) {
               HasSubstr("materials.steel.user.state: must be a whole number"));
   EXPECT_THAT(refusal(edited(model, "state: 7", "state: 1000")), HasSubstr("<= 999"));
   EXPECT_THAT(refusal(edited(model, "library: metal.so, ", "")),
-              HasSubstr("materials.steel.user.function: without a library it is an address"));
+              HasSubstr("required key 'library' is missing"));
   EXPECT_THAT(refusal(edited(model, "[200, 0.3, 1, 20]", "[200, x]")),
               HasSubstr("constants[1]: expected a number"));
 }

@@ -101,6 +101,7 @@ struct UserNormal : UserLaw<osculate_user_normal> {
         gap, routine->constants.data(), static_cast<int>(routine->constants.size()), none, none,
         none};
     routine->function(&at);
+    if (at.energy != at.energy) at.pressure = none;  // no answer
     return at;
   }
 };
@@ -138,6 +139,7 @@ struct UserFriction : UserLaw<osculate_user_friction> {
   [[nodiscard]] SlipLimit predicted_limit(double trial, double pressure,
                                           const Sliding& sliding) const {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    if (timed && !(sliding.duration > 0)) return {trial, 1, 0};  // nothing has slid yet
     const osculate_friction_point at = asked(pressure, trial, none, sliding);
     return {at.limit, at.d_trial, at.d_pressure};
   }
