@@ -33,9 +33,9 @@ bool has_slave_of_nodes(const InpModel& m, const Card& card, const std::string& 
 }
 
 /// Mortar: unknown tractions of hard contact, and the law of pressure where there is one. Nodes,
-/// or Gauss points: two per direction of a facet, three of one of second order, and six of
-/// one that is tied: ccx integrates over the parts of the facets that lie on one facet of the
-/// master, and ties of coarse facets on fine ones need as many to come near that (docs/inp.md).
+/// or Gauss points: three per direction of a facet, six of one that is tied: ccx integrates over
+/// the parts of the facets that lie on one facet of the master, and coarse facets on fine ones need
+/// as many to come near that (docs/inp.md).
 void put_sampling(InpModel& m, const Card& card, const std::string& slave,
                   const InpInteraction& law, SourceNode& pair) {
   const int at = line_of(card.at);
@@ -65,10 +65,7 @@ void put_sampling(InpModel& m, const Card& card, const std::string& slave,
     return;
   }
   put(put(pair, "sampling", inp_map(at)), "gauss",
-      inp_number(inp_is_tied(law.behavior) ? 6
-                 : second_order            ? 3
-                                           : 2,
-                 at));
+      inp_number(inp_is_tied(law.behavior) ? 6 : 3, at));
 }
 
 /// `slave_master`, with a number where that is taken.

@@ -178,10 +178,8 @@ PairType type_of_pair(const Contact& contact, const model::BasicModel<Dim>& m,
   const auto pair =
       std::ranges::find(m.pairs, contact.name.value, [](const auto& one) { return one.name; });
   bool nodes = asked.rule == SamplingRule::nodes;
-  bool gauss = asked.rule == SamplingRule::gauss && asked.subdomains == 1 &&
-               asked.points == (tied     ? 6
-                                : curved ? 3
-                                         : 2);
+  bool gauss =
+      asked.rule == SamplingRule::gauss && asked.subdomains == 1 && asked.points == (tied ? 6 : 3);
   if (asked.rule == SamplingRule::automatic && pair != m.pairs.end()) {
     nodes = pairing::sampled_at_nodes(pair->definition.slave);
     gauss = !nodes;
@@ -198,8 +196,7 @@ PairType type_of_pair(const Contact& contact, const model::BasicModel<Dim>& m,
   if ((nodes && curved && !middles) || (!nodes && !gauss))
     throw core::InputError(
         contact.sampling.mark.line > 0 ? contact.sampling.mark : contact.name.mark,
-        "an input file has nodes of first-order facets, and gauss: 2 (second "
-        "order: 3, tied 6)");
+        "an input file has nodes of first-order facets, and gauss: 3 (tied 6)");
   leaves.take(path + ".sampling");
   if (middles || (of_nodes && contact.area_by == area_of_nodes(m, slave)))
     (void)leaves.text(path + ".weight.area");

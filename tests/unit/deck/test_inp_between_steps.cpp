@@ -347,10 +347,10 @@ TEST(InpBetweenSteps, OfTwoSlavesWithOneNameThatOfNodesCounts) {
   };
   expect_in(contact("FOOT\n", "NODE TO SURFACE"),
             "slave: SLAVE\n    sampling: nodes\n    weight: {area: around}");
-  expect_in(contact("FOOT\n", "SURFACE TO SURFACE"), "slave: SLAVE\n    sampling: {gauss: 2}");
+  expect_in(contact("FOOT\n", "SURFACE TO SURFACE"), "slave: SLAVE\n    sampling: {gauss: 3}");
   expect_in(contact("11, 12\n", "NODE TO SURFACE"),
             "slave: SLAVE.surface_nodes\n    sampling: nodes\n    weight: {area: around}");
-  expect_in(contact("11, 12\n", "SURFACE TO SURFACE"), "slave: SLAVE\n    sampling: {gauss: 2}");
+  expect_in(contact("11, 12\n", "SURFACE TO SURFACE"), "slave: SLAVE\n    sampling: {gauss: 3}");
 }
 
 TEST(InpBetweenSteps, StepsInTime) {
