@@ -73,4 +73,5 @@ PYBIND11_MODULE(_core, m) {
   python::add_shapes(m);
   python::add_closest_points(m);
   python::add_contact(m);
+  python::add_contact_point(m);
 }

@@ -4,6 +4,7 @@ run, check, Result   analyses, as the program `osculate` has them
 study                an analysis over values of its parameters
 normal_law, friction_law, material   your own functions as laws
 Evaluator            contact for a code of one's own; closest_points: of millions of points
+ContactPoint         one contact point, every quantity of the covariant description by its name
 """
 from ._contact import (ActiveSet, Closest, ClosestPoints, ClosestStatus, DerivativeCheck, Evaluation, Evaluator,
                        Feature, History, Multipliers, Status, Surface, automatic_penalties, closest_points, csr)
@@ -13,6 +14,7 @@ from ._data import DataSet, Parts
 from ._errors import AnalysisFailed, InputError, Interrupted, Refused
 from ._laws import friction_law, material, normal_law
 from ._mesh import write_gmsh
+from ._point import ContactPoint, PointParts
 from ._run import Columns, Increment, Result, State, check, run
 from ._study import Table, study
 

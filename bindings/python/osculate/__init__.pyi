@@ -304,6 +304,44 @@ class Evaluator:
     def multipliers(self, data: builtins.bytes) -> Multipliers: ...
     def bytes(self, multipliers: Multipliers) -> builtins.bytes: ...
 
+@dataclass(frozen=True)
+class PointParts:
+    feature: Feature
+    facet: int
+    xi: Floats
+    foot: Floats
+    gap: float
+    normal: Floats
+    base: Floats
+    second: Floats
+    metric: Floats
+    inverse_metric: Floats
+    curvature: Floats
+    offset_metric: Floats
+    d_gap: Floats
+    d_xi: Floats
+    d_normal: Floats
+    d_base: Floats
+    status: Status
+    pressure: float
+    shear: Floats
+    slip: Floats
+    force: Floats
+    tangent: Floats
+    main: Floats
+    rotational: Floats
+    bending: Floats
+    before: History
+    after: History
+
+class ContactPoint:
+    start: History
+    def __init__(self, coordinates: ArrayLike, *, master: Surface, slave: int = 0, normal: Law,
+                 friction: Law | None = None, **options: Any) -> None: ...
+    def at(self, coordinates: ArrayLike, before: History | None = None, *, duration: float = 0.0) -> PointParts: ...
+    def derivative(self, name: str, coordinates: ArrayLike, before: History | None = None, *, step: float = 1e-6,
+                   duration: float = 0.0) -> Floats: ...
+
 def normal_law(pressure: Callable[[float], tuple[float, float]], energy: Callable[[float], float] | None = None, *,
                onset: float = 0.0) -> Law: ...
 def friction_law(limit: Callable[[Any], tuple[float, float, float]],

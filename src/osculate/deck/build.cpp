@@ -66,7 +66,22 @@ model::AnalysisOptions analysis_options(const Solver& solver) {
   return options;
 }
 
+void need_duration(const Step& step, const core::SourceMark& mark, std::string_view what) {
+  if (!step.duration && !step.modes && !step.buckling && !step.harmonic)
+    throw core::InputError(
+        mark, fmt::format("{} needs the duration of every step, and step '{}' has none", what,
+                          step.name.value));
+}
+
 }  // namespace
+
+void check_durations(const Description& description, const Material& material) {
+  if (!material::needs_duration(material.law.value)) return;
+  for (const Step& step : description.steps)
+    if (!step.at_once)
+      need_duration(step, material.law.mark,
+                    fmt::format("material '{}', which depends on time,", material.name.value));
+}
 
 void check_durations(const Description& description, const std::optional<core::SourceMark>& timed,
                      std::string_view what, const StepRange& acts) {
@@ -74,11 +89,7 @@ void check_durations(const Description& description, const std::optional<core::S
   const std::size_t end = std::min(acts.end, description.steps.size());
   for (const Step& step :
        std::span(description.steps).first(end).subspan(std::min(acts.first, end)))
-    if (!step.duration && !step.modes && !step.buckling && !step.harmonic)
-      throw core::InputError(*timed,
-                             fmt::format("{} needs the duration of every step, and step '{}' has "
-                                         "none",
-                                         what, step.name.value));
+    need_duration(step, *timed, what);
 }
 
 void require_in_plane(const mesh::Mesh& mesh, const core::SourceMark& mark) {

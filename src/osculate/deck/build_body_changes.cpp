@@ -142,9 +142,7 @@ void change_material(BuildContext<Dim>& c, const MaterialChange& change,
       for (const mesh::CellRef& ref : section.cells)
         check_plane(c, of, now.now, change.material, ref);
     if (!section.initial.empty()) require_hooke(now.now, section.name, change.material.mark);
-    if (material::needs_duration(material->law.value))
-      check_durations(c.description, material->law.mark,
-                      fmt::format("material '{}', which depends on time,", material->name.value));
+    check_durations(c.description, *material);
     to.materials.push_back(std::move(now));
   }
 }

@@ -33,6 +33,8 @@ struct StepRange {
 /// Where something depends on time (`timed`), every step in which it acts says how long it takes.
 void check_durations(const Description& description, const std::optional<core::SourceMark>& timed,
                      std::string_view what, const StepRange& acts = {});
+/// The same for a material that depends on time, but for steps in which it responds at once.
+void check_durations(const Description& description, const Material& material);
 
 /// Axes of a node's displacement components, by columns, and the node that carries them as
 /// unknowns; -1: none does.

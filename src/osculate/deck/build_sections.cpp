@@ -86,9 +86,7 @@ solid::Section<Dim> solid_section(const BuildContext<Dim>& c, const Section& s) 
   const Material* const material = c.description.find_material(s.material.value);
   if (!material)
     throw core::InputError(s.material.mark, fmt::format("unknown material '{}'", s.material.value));
-  if (material::needs_duration(material->law.value))
-    check_durations(c.description, material->law.mark,
-                    fmt::format("material '{}', which depends on time,", s.material.value));
+  check_durations(c.description, *material);
   return make_solid_section<Dim>(s, *material);
 }
 

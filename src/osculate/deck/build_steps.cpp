@@ -284,6 +284,7 @@ model::Step step_without_loads(const BuildContext<Dim>& c, const deck::Step& ste
         step.highest ? step.highest->value : std::numeric_limits<double>::infinity()};
   if (step.modal) build_modal(*step.modal, out.modal.emplace());
   if (step.duration) out.duration = step.duration->value;
+  out.at_once = step.at_once;
   out.equation_start = c.model().steps.empty() ? 0.0 : 1.0;
   return out;
 }

@@ -213,17 +213,15 @@ void put_clearance(InpModel& m, const Card& card, SourceNode& pairs) {
   put(put(*pair, "initial", inp_map(line)), "clearance", inp_number(value, line));
 }
 
-/// What is tied and overlaps is pushed out over the first step, if that is static, as in CalculiX.
-void ramp_tied_overlaps(const InpModel& m, const std::vector<InpInteraction>& interactions,
-                        SourceNode& pairs) {
+/// Overlaps between surfaces are let in over the first step, if that is static, as in CalculiX.
+void ramp_overlaps(const InpModel& m, SourceNode& pairs) {
   if (contact_is_damped(m, {})) return;  // the first step is dynamic
   for (SourceNode& pair : pairs.items) {
     const auto of = std::ranges::find(m.pairs, find(pair, "name")->text, &InpPair::name);
-    if (of == m.pairs.end() || find(pair, "initial") || find(pair, "sampling")->text == "mortar")
-      continue;
-    const InpInteraction& law = interaction_named(m, interactions, {}, of->interaction);
-    if (inp_is_tied(law.behavior))
-      put(pair, "initial", inp_text("ramp", line_of(law.behavior->at)));
+    if (of == m.pairs.end() || find(pair, "initial")) continue;
+    const SourceNode& sampling = *find(pair, "sampling");
+    if (sampling.text != "mortar" && sampling.text != "nodes")
+      put(pair, "initial", inp_text("ramp", sampling.line));
   }
 }
 
@@ -321,7 +319,7 @@ SourceNode inp_contact(InpModel& m) {
   }
   for (const Card& card : m.deck.cards)
     if (card.keyword == "CLEARANCE") put_clearance(m, card, pairs);
-  ramp_tied_overlaps(m, interactions, pairs);
+  ramp_overlaps(m, pairs);
   return inp_general_contact(m, interactions, std::move(pairs));
 }
 

@@ -150,8 +150,6 @@ void put_viscoelastic(const InpModel& m, const io::inp::Card& elastic,
 /// Puts the series of a `*VISCOELASTIC` beside a `*HYPERELASTIC` or `*HYPERFOAM`.
 void put_relaxation(const InpModel& m, const io::inp::Card& hyperelastic,
                     const io::inp::Card& viscoelastic, SourceNode& material);
-/// The shortest time of any series of a deck; none: nothing relaxes.
-[[nodiscard]] std::optional<double> shortest_relaxation(const InpModel& m);
 [[nodiscard]] SourceNode inp_sections(InpModel& m);
 /// A set of elements, and the words of a section that their types stand for.
 struct InpElements {

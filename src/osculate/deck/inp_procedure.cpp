@@ -146,22 +146,10 @@ void put_search(const InpProcedure& procedure, SourceNode& step) {
 namespace {
 
 /// `*STATIC` is the response at once of what relaxes, and nothing creeps in it, as in CalculiX.
-double duration_of(InpModel& m, const InpProcedure& procedure) {
-  if (!procedure.is("STATIC")) return procedure.period;
-  constexpr double next_to_none = 1e-9;
-  const auto say = [&](const char* what, double duration, const char* of) {
-    m.notes.push_back(fmt::format("line {}: *STATIC {}: it has the duration {:g}, 1e-9 of {}",
-                                  procedure.card->at.line, what, duration, of));
-    return duration;
-  };
-  if (const std::optional<double> shortest = shortest_relaxation(m))
-    return say("is the response at once of *VISCOELASTIC", next_to_none * *shortest,
-               "the shortest relaxation time");
-  const bool creeps =
-      std::ranges::any_of(m.deck.cards, [](const Card& card) { return card.keyword == "CREEP"; });
-  if (creeps)
-    return say("knows no *CREEP, as in CalculiX", next_to_none * procedure.period, "its time");
-  return procedure.period;
+bool is_at_once(const InpModel& m, const InpProcedure& procedure) {
+  return procedure.is("STATIC") && std::ranges::any_of(m.deck.cards, [](const Card& card) {
+           return card.keyword == "CREEP" || card.keyword == "VISCOELASTIC";
+         });
 }
 
 }  // namespace
@@ -175,7 +163,8 @@ void put_time(InpModel& m, const InpProcedure& procedure, SourceNode& step) {
         "arc_length` of a model file",
         procedure.card->at.line));
   put(step, "increments", inp_number(procedure.increments, line));
-  put(step, "duration", inp_number(duration_of(m, procedure), line));
+  put(step, "duration", inp_number(procedure.period, line));
+  if (is_at_once(m, procedure)) put(step, "at_once", inp_text("true", line)).quoted = false;
   if (procedure.is("DYNAMIC")) put(step, "dynamics", inp_dynamics(m, *procedure.card));
 }
 

@@ -102,14 +102,4 @@ void put_viscoelastic(const InpModel& m, const Card& elastic, const Card& viscoe
   put_series(terms, 1, "bulk", line_of(viscoelastic.at), law);
 }
 
-std::optional<double> shortest_relaxation(const InpModel& m) {
-  std::optional<double> shortest;
-  for (const Card& card : m.deck.cards) {
-    if (card.keyword != "VISCOELASTIC") continue;
-    for (const auto& term : prony_terms(m, card))
-      shortest = std::min(shortest.value_or(term[2]), term[2]);
-  }
-  return shortest;
-}
-
 }  // namespace osculate::deck

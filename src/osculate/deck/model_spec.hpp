@@ -41,6 +41,8 @@ namespace osculate::deck {
 /// `sampling` and `initial` of a contact pair.
 [[nodiscard]] BoundKey<Contact> sampling_key();
 [[nodiscard]] BoundKey<Contact> initial_gaps_key();
+/// How long a step lasts, and for whom.
+[[nodiscard]] std::vector<BoundKey<Step>> time_keys();
 /// Cells, materials and equations that change when a step begins.
 [[nodiscard]] std::vector<BoundKey<Step>> body_change_keys();
 /// Sets of nodes or rigid bodies, and which of their displacements.

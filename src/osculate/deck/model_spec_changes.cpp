@@ -122,6 +122,20 @@ std::vector<BoundKey<Description>> initial_state_keys() {
                       "Strain", "1", "[0, 0.01, 0, 0]")};
 }
 
+std::vector<BoundKey<Step>> time_keys() {
+  return {may(&Step::duration, "duration",
+              number("Time from the beginning of the step to its end; inertia, friction that "
+                     "depends on speed, and materials that creep or relax ask for it.")
+                  .in("time")
+                  .above(0)
+                  .otherwise_as("no time")
+                  .such_as("0.5")),
+          may(&Step::at_once, "at_once",
+              boolean("Materials respond at once: nothing creeps or relaxes in this step, however "
+                      "long it lasts.")
+                  .otherwise("false"))};
+}
+
 std::vector<BoundKey<Step>> body_change_keys() {
   return {remove_key(), add_key(), materials_change_key(), begun_equations_key(),
           free_equations_key()};

@@ -335,14 +335,6 @@ BoundKeys<Step> step_keys() {
               .such_as("10")),
       modes_key(),
       buckling_key(),
-      may(&S::duration, "duration",
-          number("Time from the beginning of the step to its end; "
-                 "inertia and friction that depends on speed ask for "
-                 "it.")
-              .in("time")
-              .above(0)
-              .otherwise_as("no time")
-              .such_as("0.5")),
       prescribe_key(),
       release_key(),
       hold_key(),
@@ -359,7 +351,8 @@ BoundKeys<Step> step_keys() {
        [](S& s, const Value& v) { s.dynamics = parse_dynamics(v); }},
       modal_key(),
       harmonic_key()};
-  for (BoundKey<S>& key : body_change_keys()) keys.push_back(std::move(key));
+  for (auto* const more : {time_keys, body_change_keys})
+    for (BoundKey<S>& key : more()) keys.push_back(std::move(key));
   return {std::move(keys)};
 }
 

@@ -114,6 +114,7 @@ struct Step {
   Name name;
   Marked<int> increments;
   std::optional<Number> duration;
+  bool at_once = false;
   std::vector<Prescription> prescribe;
   std::vector<Release> release, hold;
   std::vector<Load> forces, total_force, pressure, traction, body_force, centrifugal;

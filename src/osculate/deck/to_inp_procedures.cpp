@@ -206,7 +206,7 @@ ProcedureCards procedure_of(const Description& d, std::size_t number, bool finit
   });
   const std::string times =
       fmt::format("{}, {}\n", exact(duration / step.increments.value), exact(duration));
-  if (!relaxes) return {head + "*STATIC, DIRECT\n" + times, false, false};
+  if (!relaxes || step.at_once) return {head + "*STATIC, DIRECT\n" + times, false, false};
   return {title + fmt::format("*STEP{}, INC=1000000, AMPLITUDE=RAMP\n", geometry) +
               "*VISCO, CETOL=1, DIRECT\n" + times,
           false, false};

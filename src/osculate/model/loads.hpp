@@ -162,7 +162,8 @@ struct Temperatures {
 struct Step {
   std::string name;
   int increments = 1;
-  double duration = 0;  ///< time from its beginning to its end; 0: no time is known
+  double duration = 0;   ///< time from its beginning to its end; 0: no time is known
+  bool at_once = false;  ///< of that materials see nothing: they neither creep nor relax
   std::vector<PrescribedDof> prescribed;
   std::vector<DeadLoad> dead;
   std::vector<PressureLoad> pressure;

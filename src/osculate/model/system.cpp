@@ -419,6 +419,10 @@ bool BasicSystem<Dim>::soften() {
   return true;
 }
 template <int Dim>
+bool BasicSystem<Dim>::at_rest() const {
+  return !impl_->timed();
+}
+template <int Dim>
 void BasicSystem<Dim>::resist(double share) {
   Resistance<Dim>& resistance = impl_->resistance;
   if (share == resistance.share) return;

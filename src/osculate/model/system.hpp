@@ -215,6 +215,8 @@ class BasicSystem {
   /// Gives every multiplier of the running tangent a little compliance (see solve::Softens).
   /// Returns false where there are none.
   bool soften();
+  /// No step in time: what is in balance is an equilibrium.
+  [[nodiscard]] bool at_rest() const;
   /// Puts `share` of the bodies' own stiffness on the diagonal of the tangent, this one and those
   /// to come, against free motions (solve::Resistance). 0 removes it.
   void resist(double share);

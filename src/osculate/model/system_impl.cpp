@@ -287,7 +287,7 @@ void BasicSystem<Dim>::Impl::assemble_terms(const State& committed, const Trial&
   Assembly<Dim> to = assembly(with_tangent, predict ? &inc : nullptr);
   const double length = time_between(committed, fraction);
   // A state against itself: no time has passed since what its material points remember.
-  const double duration = pass == Pass::whole ? 0.0 : length;
+  const double duration = pass == Pass::whole || step.at_once ? 0.0 : length;
   std::optional<CellInertia<Dim>> of_cells;
   if (timed()) of_cells.emplace(motion->cell_inertia());
   if (!model.body_changes.empty()) keep_memory(model, committed.memory, last.memory);

@@ -68,8 +68,8 @@ void fields(Archive& a, TimePace& pace) {
 }
 template <class Archive>
 void fields(Archive& a, Precision& precision) {
-  auto& [condition, round_off] = precision;
-  a(condition, round_off);
+  auto& [condition, round_off, unstable] = precision;
+  a(condition, round_off, unstable);
 }
 template <class Archive>
 void fields(Archive& a, IncrementRecord& record) {
@@ -185,7 +185,7 @@ void fields(Archive& a, JournalEntry& e) {
 
 namespace {
 
-constexpr int version = 14;
+constexpr int version = 15;
 
 template <class... T>
 std::string saved(const T&... values) {

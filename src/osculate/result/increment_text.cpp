@@ -13,12 +13,13 @@ std::string time_step_text(const solve::TimeStepTaken& taken) {
                      taken.refused ? fmt::format(" ({} refused)", taken.refused) : "");
 }
 
-/// Digits that were lost.
+/// Digits that were lost, and equilibria that do not last.
 std::string precision_text(const solve::Precision& precision) {
   return (precision.condition > 0
               ? fmt::format("  (condition of the tangent {:.0e})", precision.condition)
               : std::string{}) +
-         (precision.round_off ? "  (residual at round-off)" : "");
+         (precision.round_off ? "  (residual at round-off)" : "") +
+         (precision.unstable > 0 ? "  (unstable)" : "");
 }
 
 /// The states after a gap, if there is something to tell.

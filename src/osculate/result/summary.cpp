@@ -58,6 +58,7 @@ nlohmann::json increment_json(double step_time, const solve::IncrementRecord& re
           {"on_path", record.on_path},
           {"condition", condition},
           {"round_off", record.precision.round_off},
+          {"unstable", record.precision.unstable},
           {"open", last.counts.open},
           {"stick", last.counts.stick},
           {"slipping", last.counts.slipping},

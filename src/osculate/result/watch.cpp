@@ -20,6 +20,17 @@ void add(std::string text, std::vector<std::string>& texts) {
   if (!text.empty()) texts.push_back(std::move(text));
 }
 
+/// A warning where a step ends in an equilibrium that does not last; else empty.
+std::string does_not_last(const std::string& step, const solve::IncrementRecord& record) {
+  const int motions = record.precision.unstable;
+  if (motions == 0) return {};
+  return fmt::format(
+      "warning: step '{}' ends in an unstable equilibrium: the least disturbance makes the bodies "
+      "leave it in {} (negative pivots of the tangent), as above a buckling load or a critical "
+      "speed; a step with `modes` after it shows them (negative frequencies)",
+      step, motions == 1 ? "one way" : fmt::format("{} ways", motions));
+}
+
 }  // namespace
 
 template <int Dim>
@@ -83,6 +94,8 @@ std::vector<std::string> Watch<Dim>::take(const model::BasicSystem<Dim>& system,
   remember_front(state);
   model::measure_small_strain(system.model(), state, memory.small_strains);
   if (progress.fraction >= 1.0) model::measure_locking(system.model(), state, memory.locking);
+  if (progress.fraction >= 1.0)
+    add(does_not_last(model.steps[static_cast<std::size_t>(progress.step)].name, record), texts);
   measure_energy(system, state, record);
   return texts;
 }

@@ -106,11 +106,12 @@ struct Factorisations {
   return count;
 }
 
-/// Where digits were lost.
+/// Where digits were lost, and what else there is to say of a solution.
 struct Precision {
   double condition = 0;  ///< of the tangent, about; 0: at most 1e13
   bool round_off =
-      false;  ///< the residual is above its tolerance, and as small as rounding lets it
+      false;         ///< the residual is above its tolerance, and as small as rounding lets it
+  int unstable = 0;  ///< motions that the equilibrium drives on: see look_at_stability
 };
 
 /// `State` is what was committed, `Trial` what an iteration tries; they may be one type, but where
@@ -141,6 +142,7 @@ struct NewtonResult {
   la::SolveStatus linear = la::SolveStatus::ok;
   Index bad_row = -1;
   bool whole_factors = true;  ///< of the last factorisation: la::FactorReport
+  int negative_pivots = 0;    ///< likewise
   Precision precision{};
 };
 

@@ -6,6 +6,7 @@
 #include "osculate/solve/line_search.hpp"
 #include "osculate/solve/peeling.hpp"
 #include "osculate/solve/resistance.hpp"
+#include "osculate/solve/stability.hpp"
 
 namespace osculate::solve {
 
@@ -347,8 +348,10 @@ template <System S>
     if (known && !ended) system.evaluate(committed, result.trial, time, true, result.evaluation);
     if (peeling.turns(system, committed, time, ended, result))
       judge.begin_again();
-    else if (ended)
+    else if (ended) {
+      look_at_stability(system, committed, time, solver, result);
       return result;
+    }
     if (i == most + peeling.iterations())
       most = detail::allowed(most, more, limit, last && !ended, result);
   }
