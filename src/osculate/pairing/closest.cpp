@@ -41,19 +41,21 @@ bool ends_at(const Chain& chain, const Facet& facet, bool high, std::span<const 
 /// would stand still there and then jump. But a point that is seen from the end at an angle to the
 /// normal belongs to the corner there, however near: between a normal and the next the force of a
 /// point that rests in a re-entrant vertex would jump. At an open end of the chain the facet is
-/// continued by `end_extension` of its range: the last node of a surface must not lose contact
+/// continued by `beyond_open` of its range: the last node of a surface must not lose contact
 /// because its master tilts or stretches a little.
 template <class Jet, class Open>
 void release_end(const Jet& jet, const Facet& facet, const Vec2& point, const Open& open,
-                 CurveFoot& foot) {
+                 const ProjectionQuery<2>& query, CurveFoot& foot) {
   if (!foot.converged || (foot.xi != facet.lo && foot.xi != facet.hi)) return;
-  const bool open_end = open(foot.xi == facet.hi);
+  const bool high = foot.xi == facet.hi, open_end = open(high);
   if (foot.at_end && !open_end) return;
   const double range = facet.hi - facet.lo;
-  const double limit = (open_end ? end_extension : 2 * projection::end_tolerance) * range;
+  const bool kept = query.kept >= 0 && (high ? facet.next : facet.prev) >= 0;
+  const double extension = kept ? end_extension : query.beyond_open;
+  const double limit = (open_end ? extension : 2 * projection::end_tolerance) * range;
   double xi = foot.xi;
   projection::DistanceJet d = projection::distance_jet(jet(xi), xi, point);
-  const bool beyond = foot.xi == facet.hi ? d.slope < 0 : d.slope > 0;
+  const bool beyond = high ? d.slope < 0 : d.slope > 0;
   const double least = 1e-10 * range * std::sqrt(d.a11);  // nearer: the angle is rounding
   if (!open_end && beyond && std::abs(d.slope) > 4 * d.noise &&
       d.squared_distance > least * least) {
@@ -86,12 +88,12 @@ CurveFoot foot_on_facet(const Chain& chain, const Facet& facet, std::span<const 
     const Index beyond = foot.xi == facet.hi ? facet.next : facet.prev;
     if (beyond >= 0 && !facet.closed)
       release_end([&](double xi) { return geometry::jet(*facet.shape, xi); }, facet, local, open,
-                  foot);
+                  query, foot);
     return foot;
   }
   const geometry::LagrangeCurve curve = facet_curve(facet, x);
   CurveFoot foot = projection::closest_point(curve, point);
-  release_end([&](double xi) { return curve.jet(xi); }, facet, point, open, foot);
+  release_end([&](double xi) { return curve.jet(xi); }, facet, point, open, query, foot);
   return foot;
 }
 

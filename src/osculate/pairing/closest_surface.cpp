@@ -62,9 +62,17 @@ bool ends_at(const FacetSurface& surface, const SurfaceFacet& facet, int edge,
                          middle_of(next, x) - middle_of(facet, x));
 }
 
+/// How far the facet goes on beyond an edge.
+double extension_beyond(const FacetSurface& surface, const SurfaceFacet& facet, int edge,
+                        std::span<const Vec3> x, const ProjectionQuery<3>& query) {
+  if (!ends_at(surface, facet, edge, x, query)) return border_tolerance;
+  const bool neighbour = facet.neighbour[static_cast<std::size_t>(edge)] >= 0;
+  return query.kept >= 0 && neighbour ? end_extension : query.beyond_open;
+}
+
 /// A foot on the border of its facet is let go a little beyond it: by the tolerance of the
 /// projection between neighbours (clamped, the slip would stand still there and then jump), by
-/// `end_extension` at open borders (the last node of a surface must not lose contact because its
+/// `beyond_open` at open borders (the last node of a surface must not lose contact because its
 /// master tilts or stretches a little).
 template <class Release>
 void release_border(const FacetSurface& surface, const SurfaceFacet& facet, std::span<const Vec3> x,
@@ -72,19 +80,15 @@ void release_border(const FacetSurface& surface, const SurfaceFacet& facet, std:
   if (!foot.converged || foot.feature == Feature::face || foot.local < 0) return;
   FacetFoot beyond = foot;
   if (!release(end_extension, beyond)) return;  // nor by less
-  constexpr double tolerance = 2e-8;
-  bool open = false;
-  if (foot.feature == Feature::edge) {
-    open = ends_at(surface, facet, foot.local, x, query);
-  } else {
-    const int edges = edge_count(facet);
-    open = ends_at(surface, facet, (foot.local + edges - 1) % edges, x, query) ||
-           ends_at(surface, facet, foot.local, x, query);
+  double extension = extension_beyond(surface, facet, foot.local, x, query);
+  if (foot.feature == Feature::corner) {
+    const int edges = edge_count(facet), before = (foot.local + edges - 1) % edges;
+    extension = std::max(extension, extension_beyond(surface, facet, before, x, query));
   }
-  if (open)
+  if (extension == end_extension)
     foot = beyond;
   else
-    (void)release(tolerance, foot);
+    (void)release(extension, foot);
 }
 
 /// Upper bound of what `release_border` may take from the distance of a first-order facet.

@@ -65,6 +65,9 @@ template <int Dim>
   query.history = history.facet;
   query.history_feature = history.feature;
   query.kept = kept;
+  // The continuation is for points on the border of both sides.
+  if (pair.slave.points[i].inside && is<MayPart>(pair.separation))
+    query.beyond_open = border_tolerance;
   NodeFilter<Dim> rules;
   if (pair.filter.limited()) {
     rules = node_filter<Dim>(pair.filter, pair.slave, work.filter, i, query.point);

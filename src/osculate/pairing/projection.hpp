@@ -10,6 +10,8 @@ namespace osculate::pairing {
 
 /// How far an open border of a master is continued, as a part of the last facet's parameter range.
 inline constexpr double end_extension = 0.05;
+/// And between neighbours: the tolerance of the projection.
+inline constexpr double border_tolerance = 2e-8;
 
 /// Generalized projection of a point onto a master: faces, then edges (3D) and vertices.
 template <int Dim>
@@ -36,6 +38,7 @@ struct ProjectionQuery {
   /// Facet that a point keeps which went back and forth over its border (ActiveBranch::kept): it
   /// is continued by `end_extension` there; -1: the nearest one.
   Index kept = -1;
+  double beyond_open = end_extension;  ///< how far an open border is continued for this point
   const NodeFilter<Dim>* filter =
       nullptr;  ///< null: every facet is a candidate (candidate filter.hpp)
   /// An equidistant point has no side of its own: it belongs to the border between both facets.

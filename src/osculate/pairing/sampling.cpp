@@ -155,6 +155,7 @@ void sample(SlaveSide<Dim>& side, const Sampling& sampling) {
       point.facet = static_cast<Index>(f);
       point.xi = rule.places[q];
       point.weight = rule.weights[q];
+      point.inside = sampling.rule == Sampling::Rule::gauss;
       point.count = facet.count;
       const auto shape = shape_at(facet, point.xi);
       for (std::size_t k = 0; k < static_cast<std::size_t>(facet.count); ++k) {

@@ -44,7 +44,8 @@ struct SlavePoint {
   std::array<double, max_slave_nodes<Dim>> shape{1.0};  ///< N_k
   Index facet = -1;                                     ///< of the slave's boundary; -1: a node
   Vec<Dim - 1> xi = Vec<Dim - 1>::Zero();               ///< on that facet
-  double weight = 0;  ///< of the quadrature, in the facet's reference cell
+  double weight = 0;    ///< of the quadrature, in the facet's reference cell
+  bool inside = false;  ///< its facet: a Gauss point
 
   [[nodiscard]] bool is_node() const { return facet < 0; }
   /// The node with the largest share.

@@ -132,6 +132,7 @@ template <int Dim>
 void tie_points(const PairDefinition<Dim>& pair, Points<Dim> x, Tied<Dim>& tied) {
   PairDefinition<Dim> open = pair;  // the same, to search in
   open.separation = MayPart{};
+  for (SlavePoint<Dim>& point : open.slave.points) point.inside = false;  // what is tied stays so
   PairEvaluation<Dim> work;
   PairState<Dim> none;
   none.points.resize(pair.slave.points.size());

@@ -74,6 +74,12 @@ TEST(ClosestOnChain, OpenEndsAreContinuedALittle) {
   const Projection<2> beyond = line.at({1.2, -0.1});
   EXPECT_TRUE(beyond.beyond_end);
   EXPECT_EQ(beyond.feature, Feature::corner);
+  pairing::ProjectionQuery<2> query;
+  query.beyond_open = pairing::border_tolerance;
+  query.point = {1.001, -0.1};
+  EXPECT_TRUE(line.at(query).beyond_end) << "not for points that do not ask for it";
+  query.point = {0.999, -0.1};
+  EXPECT_FALSE(line.at(query).beyond_end);
 }
 
 TEST(ClosestOnChain, FacetsFacingTheSameWayAreSkipped) {

@@ -122,5 +122,20 @@ TEST(ClosestOnSurface, OpenBordersAreContinuedALittle) {
   EXPECT_TRUE(t.at({5.2, 1.3, -0.05}).beyond_end);
 }
 
+TEST(ClosestOnSurface, OpenBordersAreContinuedAsFarAsThePointAsks) {
+  const Target<3> t = flat_strip();
+  pairing::ProjectionQuery<3> query;
+  query.beyond_open = pairing::border_tolerance;
+  const auto beyond = [&](double x) {
+    query.point = {x, 0.3, -0.05};
+    return t.at(query).beyond_end;
+  };
+  EXPECT_FALSE(beyond(4.99));
+  EXPECT_TRUE(beyond(5.001));
+  query.kept = t.at(query).facet;  // only to its neighbour a facet is kept
+  EXPECT_TRUE(beyond(5.001));
+  EXPECT_FALSE(beyond(1.001)) << "between neighbours";
+}
+
 }  // namespace
 }  // namespace osculate::testing

@@ -224,6 +224,32 @@ TEST(SegmentForces, OfAUniformGapAreThoseOfAUniformPressure) {
   }
 }
 
+/// Places from 2 % inside to 4 % beyond the end of the master: a Gauss point has left it at once, a
+/// point of the slave's border, and one that is tied, is held a little longer.
+TEST(Sampling, GaussPointsEndWithTheMaster) {
+  const auto contacts = [](Rule rule, bool may_part, double beyond) {
+    const std::vector<Vec2> x{{0, 0}, {1, 0}, {2 + beyond, -0.01}, {beyond, -0.01}};
+    PairSample s;
+    s.x = x;
+    s.pair.master.facets.push_back(pairing::lagrange_facet(std::array<Index, 2>{0, 1}));
+    pairing::connect(s.pair.master);
+    pairing::Chain slave;
+    slave.facets.push_back(pairing::lagrange_facet(std::array<Index, 2>{2, 3}));
+    pairing::connect(slave);
+    s.pair.slave = pairing::make_slave_side(slave);
+    pairing::sample(s.pair.slave, {rule, rule == Rule::gauss ? 1 : 3, 1});  // middle at 1 + beyond
+    if (!may_part) s.pair.separation = pairing::NeverPart{};
+    pairing::prepare(s.pair, s.x);
+    const pairing::PairState<2> state = pairing::initial_state<2>(s.pair, s.x);
+    const std::size_t middle = rule == Rule::gauss ? 0 : 1;
+    return state.points[middle].active;
+  };
+  EXPECT_TRUE(contacts(Rule::gauss, true, -0.02));
+  EXPECT_FALSE(contacts(Rule::gauss, true, 0.001));
+  EXPECT_TRUE(contacts(Rule::gauss, false, 0.04));
+  EXPECT_TRUE(contacts(Rule::lobatto, true, 0.04));
+}
+
 TEST(SegmentForces, OfAPassAreItsShare) {
   PairSample s = segment_sample({});
   s.committed = pairing::initial_state<2>(s.pair, s.x);
