@@ -17,6 +17,7 @@ concept KnowsRest = Resists<S> && requires(const S s) {
 /// Limits     an unsymmetric tangent or one with multipliers has pivots that say nothing of this,
 ///            and is not looked at; nor is a state on a path (arc length), which is free to be
 ///            unstable
+/// Decision   docs/decisions/081-unstable-equilibria.md
 /// Tested by  tests/unit/solve/test_stability.cpp
 template <System S>
 void look_at_stability(S& system, const typename S::State& committed, double time,
