@@ -25,6 +25,7 @@ class StepWriter : private LoadWriter<Dim> {
       const std::string path = fmt::format("steps[{}]", s);
       for (const char* const key : {".name", ".increments", ".duration"})
         (void)leaves_.text(path + key);
+      if (!d_.steps[s].dynamics) leaves_.take(path + ".at_once");  // *DYNAMIC relaxes
       for (const char* const key :
            {".prescribe", ".release", ".hold", ".forces", ".pressure", ".traction", ".total_force",
             ".temperature", ".centrifugal", ".gravity", ".body_force", ".modes", ".buckling",
