@@ -2,8 +2,7 @@
 # build type, so that program and tests share the library's objects.
 #   hot    kernels: -O2
 #   cold   readers, reports, commands, cases: -O1 (their time is the compiler's)
-#   tests  as cold, with GoogleTest in the precompiled header; not optimised with sanitizers, where
-#          optimising what runs once is half of the compiler's time
+#   tests  as cold, with GoogleTest in the precompiled header
 # Flags are never exported to users. Where sources are compiled together, what one calls a local
 # variable another may call a constant, and a source is an included file.
 option(OSCULATE_PRECOMPILE "Precompile the headers that most sources need" ON)
@@ -47,16 +46,11 @@ function(osculate_compile target temperature)
   if(NOT temperature STREQUAL "hot")
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   endif()
-  set(plain $<$<BOOL:${OSCULATE_SANITIZE}>:-O0>)
-  if(temperature STREQUAL "tests")
-    target_compile_options(${target} PRIVATE ${plain})
-  endif()
   if(OSCULATE_PRECOMPILE)
     if(temperature STREQUAL "tests")
       osculate_precompiled(osculate_precompiled_tests ${PROJECT_SOURCE_DIR}/cmake/precompiled.hpp
         <gtest/gtest.h> <gmock/gmock.h>)
       target_link_libraries(osculate_precompiled_tests PRIVATE GTest::gtest GTest::gmock)
-      target_compile_options(osculate_precompiled_tests PRIVATE ${plain})
       target_precompile_headers(${target} REUSE_FROM osculate_precompiled_tests)
     else()
       osculate_precompiled(osculate_precompiled_library ${PROJECT_SOURCE_DIR}/cmake/precompiled.hpp)
