@@ -64,8 +64,8 @@ std::vector<InpPlace> places_here(const InpModel& m, const Fields& fields,
 
 void read_boundary(const InpReading& r, const Card& card) {
   Conditions& prescribed = part_of(r, card).prescribed;
-  const InpSaid said = begin_card(r, card, prescribed);
-  const bool fixed = io::inp::find_parameter(card, "FIXED") != nullptr;
+  InpSaid said = begin_card(r, card, prescribed);
+  said.fixed = io::inp::find_parameter(card, "FIXED") != nullptr;
   for (const Line& line : io::inp::lines_of(r.m.deck, card)) {
     Fields fields(r.m.deck, line);
     const std::string& set_name = node_set_of(r.m, line, fields.next().value_or(""));
@@ -78,9 +78,8 @@ void read_boundary(const InpReading& r, const Card& card) {
     for (const int k : directions)
       for (const InpPlace& place : places_here(r.m, fields, set_name, k)) {
         if (!inp_has_direction(r.m, place.direction)) continue;
-        const std::pair key{place.on, place.direction};
-        set_condition(r.m, prescribed, key, place.sign * size, said, line, false);
-        prescribed.at(key).fixed = fixed;
+        set_on_parts(r, prescribed, {place.on, place.direction}, place.sign * size, said, line,
+                     false);
       }
   }
 }
@@ -102,7 +101,7 @@ void read_forces(const InpReading& r, const Card& card) {
       if (!inp_has_direction(r.m, place.direction))
         fields.fail(
             fmt::format("expected a direction 1 to {}, found {}", inp_dimension(r.m), direction));
-      add_load(r, forces, {place.on, place.direction}, place.sign * size, said, line);
+      set_on_parts(r, forces, {place.on, place.direction}, place.sign * size, said, line, true);
     }
   }
 }
@@ -160,6 +159,13 @@ InpConditions& part_of(const InpReading& r, const Card& card) {
   return r.acting.parts[option_of(card, "LOADCASE") == "2" ? 1 : 0];
 }
 
+void release(Condition& value) {
+  value.size = 0;
+  value.amplitude.clear();
+  value.between = value.fresh = false;
+  value.released = true;
+}
+
 InpSaid begin_card(const InpReading& r, const Card& card, Conditions& values) {
   const io::inp::Deck& deck = r.m.deck;
   // Supports that stand between two steps are those of the next one.
@@ -176,14 +182,12 @@ InpSaid begin_card(const InpReading& r, const Card& card, Conditions& values) {
   const std::string op = option_of(card, "OP");
   if (!op.empty() && op != "NEW" && op != "MOD")
     io::inp::fail(deck, card, fmt::format("expected OP=NEW or MOD, found {}", printable(op)));
-  if (op == "NEW")
+  if (op == "NEW") {
+    std::erase_if(values, [](const auto& one) { return one.second.between && !one.second.stands; });
     for (auto& [key, value] : values)
-      if (!value.fresh) {
-        value.size = 0;
-        value.amplitude.clear();
-        value.released = true;
-      }
-  return {amplitude_of(r.m, card, r.tables), r.in_step && r.swings};
+      if (!value.fresh || value.between) release(value);
+  }
+  return {amplitude_of(r.m, card, r.tables), r.in_step && r.swings, !r.in_step};
 }
 
 void set_condition(const InpModel& m, Conditions& values, const std::pair<std::string, int>& place,
@@ -195,15 +199,19 @@ void set_condition(const InpModel& m, Conditions& values, const std::pair<std::s
     io::inp::fail(
         m.deck, line.at,
         fmt::format("'{}' has this load with another amplitude in the same step", place.first));
-  value = {
-      sum ? value.size + size : size, said.amplitude, line_of(line.at), true, false, said.swings};
+  Condition now{sum ? value.size + size : size, said.amplitude, line_of(line.at)};
+  now.stands = value.stands;
+  now.between = said.between;
+  now.fixed = said.fixed;
+  now.swings = said.swings;
+  value = std::move(now);
 }
 
 void end_conditions(InpActing& acting) {
   for (InpConditions& part : acting.parts) {
     const auto persist = [](Conditions& values) {
       std::erase_if(values, [](const auto& one) { return one.second.released; });
-      for (auto& [key, value] : values) value.fresh = false;
+      for (auto& [key, value] : values) value.fresh = value.between = false, value.stands = true;
     };
     persist(part.prescribed);
     for (Conditions* const loads : loads_of(part)) persist(*loads);

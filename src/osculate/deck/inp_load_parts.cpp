@@ -1,5 +1,5 @@
-// Loads of a deck on sets that overlap, of which one is loaded by a step and another by a later
-// one.
+// Loads and supports of a deck on sets that overlap: one is loaded by a step and another by a later
+// one, or one is held otherwise than another.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -71,6 +71,12 @@ std::string new_part(InpModel& m, const std::vector<std::string>& sets, const Se
   return name;
 }
 
+/// Two supports of a node that one cannot have both, or that end both.
+bool disagree(const Condition& one, const Condition& other) {
+  if (one.released || other.released) return one.released && other.released;
+  return one.size != other.size || one.amplitude != other.amplitude || one.fixed != other.fixed;
+}
+
 }  // namespace
 
 void note_overlaps(const InpModel& m, const Conditions& loads, InpOverlaps& overlaps) {
@@ -89,6 +95,24 @@ void note_overlaps(const InpModel& m, const Conditions& loads, InpOverlaps& over
         overlaps[key.first].insert(other);
         overlaps[other].insert(key.first);
       }
+    }
+  }
+}
+
+void note_overlaps_of_supports(const InpModel& m, const Conditions& prescribed,
+                               InpOverlaps& overlaps) {
+  std::map<std::pair<Index, int>, std::vector<const Conditions::value_type*>> held;
+  for (const Conditions::value_type& one : prescribed) {
+    const mesh::Set* const set = m.mesh.mesh.find_set(one.first.first);
+    if (!set) continue;  // a rigid body
+    for (const Index n : set->nodes) {
+      auto& here = held[{n, one.first.second}];
+      for (const Conditions::value_type* const other : here) {
+        if (!disagree(one.second, other->second)) continue;
+        overlaps[one.first.first].insert(other->first.first);
+        overlaps[other->first.first].insert(one.first.first);
+      }
+      here.push_back(&one);
     }
   }
 }
@@ -112,12 +136,12 @@ InpLoadParts load_parts(InpModel& m, const InpOverlaps& overlaps) {
   return parts;
 }
 
-void add_load(const InpReading& r, Conditions& values, const std::pair<std::string, int>& place,
-              double size, const InpSaid& said, const io::inp::Line& line) {
+void set_on_parts(const InpReading& r, Conditions& values, const std::pair<std::string, int>& place,
+                  double size, const InpSaid& said, const io::inp::Line& line, bool adds) {
   const auto parts = r.parts.find(place.first);
-  if (parts == r.parts.end()) return set_condition(r.m, values, place, size, said, line, true);
+  if (parts == r.parts.end()) return set_condition(r.m, values, place, size, said, line, adds);
   for (const std::string& part : parts->second)
-    set_condition(r.m, values, {part, place.second}, size, said, line, true);
+    set_condition(r.m, values, {part, place.second}, size, said, line, adds);
 }
 
 }  // namespace osculate::deck

@@ -132,11 +132,7 @@ void tell_of_several(const InpReading& r, const LoadLine& load, const std::strin
 void turn(const InpReading& r, const LoadLine& load, const std::string& on, int axis,
           double speed_squared) {
   for (auto& [key, value] : r.acting.parts[0].centrifugal)
-    if (key.first == on && key.second != axis && !value.fresh) {
-      value.size = 0;
-      value.amplitude.clear();
-      value.released = true;
-    }
+    if (key.first == on && key.second != axis && !value.fresh) release(value);
   set_condition(r.m, r.acting.parts[0].centrifugal, {on, axis}, speed_squared, load.said, load.line,
                 true);
 }
@@ -219,12 +215,12 @@ void read_distributed(const InpReading& r, const Card& card) {
     if (io::inp::is_side_load(load)) {
       const std::string& on =
           set_of(r.m, line.at, io::inp::side_set_name(load, one.elements), {SetKind::surface});
-      add_load(r, part.pressures, {on, 1}, fields.real("the pressure"), said, line);
+      set_on_parts(r, part.pressures, {on, 1}, fields.real("the pressure"), said, line, true);
     } else if (io::inp::is_edge_load(load)) {
       const std::string& on =
           set_of(r.m, line.at, io::inp::side_set_name(load, one.elements), {SetKind::surface});
       const double force = fields.real("the force per length");
-      add_load(r, part.pressures, {on, 1}, force / shell_thickness(r.m, one), said, line);
+      set_on_parts(r, part.pressures, {on, 1}, force / shell_thickness(r.m, one), said, line, true);
     } else if (load == "GRAV") {
       read_gravity(r, one, part.body_forces);
     } else if (load == "CENTRIF") {
@@ -266,7 +262,7 @@ void read_traction(const InpReading& r, const Card& card, const LoadLine& load,
     // that of a step before is replaced, its other components, too
     if (direction[k] == 0 && std::ranges::none_of(tractions, along)) continue;
     if (k >= inp_dimension(r.m)) load.fields.fail("the traction points out of the plane");
-    add_load(r, tractions, {on, k + 1}, size * direction[k], load.said, load.line);
+    set_on_parts(r, tractions, {on, k + 1}, size * direction[k], load.said, load.line, true);
   }
 }
 
@@ -287,7 +283,7 @@ void read_on_surfaces(const InpReading& r, const Card& card) {
       fields.fail(fmt::format("load {} is not supported: P or TRVEC", io::inp::shown(load)));
     if (option_of(card, "CONSTANTRESULTANT") == "YES")
       io::inp::fail(r.m.deck, card, "CONSTANT RESULTANT=YES goes with TRVEC");
-    add_load(r, part.pressures, {on, 1}, fields.real("the pressure"), said, line);
+    set_on_parts(r, part.pressures, {on, 1}, fields.real("the pressure"), said, line, true);
   }
 }
 

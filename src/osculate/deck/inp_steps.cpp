@@ -206,6 +206,8 @@ void end_step(History& h, const Card& card) {
     end_swing(h, card, w);
   else
     end_motion(h, card, w);
+  for (const InpConditions& part : h.acting.parts)
+    note_overlaps_of_supports(h.m, part.prescribed, h.overlaps);
   end_conditions(h.acting);
   h.step = nullptr;
 }

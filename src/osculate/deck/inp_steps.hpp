@@ -86,7 +86,9 @@ struct Condition {
   double size = 0;
   std::string amplitude;  ///< name in the deck, in capitals; empty: a ramp
   int line = 0;
-  bool fresh = true;                 ///< said in this step
+  bool fresh = true;                 ///< said in this step, or since the last one
+  bool stands = false;               ///< the steps before have one here
+  bool between = false;              ///< said before the step, not in it
   bool fixed = false;                ///< a displacement that stays where it is
   bool swings = false;               ///< said in a step of *STEADY STATE DYNAMICS
   std::array<double, 2> gradient{};  ///< of temperatures
@@ -118,10 +120,10 @@ struct InpActing {
   std::vector<std::array<double, 6>> axes;  ///< of centrifugal loads: two points of each
 };
 
-/// Sets, each with those that overlap it and have been loaded by a step before or after.
+/// Sets, each with those that overlap it and have been loaded by a step before or after, or held.
 using InpOverlaps = std::map<std::string, std::set<std::string>>;
 /// The parts that such a set is loaded by, one by one: CalculiX has one load in a direction of a
-/// node or on a facet, which that of a later step replaces.
+/// node or on a facet, which that of a later step replaces, and one support, that of the last line.
 using InpLoadParts = std::map<std::string, std::vector<std::string>>;
 
 /// Where a card of supports or loads stands.
@@ -139,26 +141,33 @@ struct InpReading {
 struct InpSaid {
   std::string amplitude;
   bool swings = false;
+  bool between = false;
+  bool fixed = false;
 };
 
 /// Reads `*BOUNDARY`, `*CLOAD`, `*TEMPERATURE`; `*DLOAD` and `*DSLOAD`.
 void read_condition(const InpReading& r, const io::inp::Card& card);
 void read_load(const InpReading& r, const io::inp::Card& card);
+/// Ends with this step.
+void release(Condition& value);
 /// Checks the parameters of a card that adds to what stood before; with OP=NEW that is gone.
 InpSaid begin_card(const InpReading& r, const io::inp::Card& card, Conditions& values);
 /// Of one step the sizes of loads add up.
 void set_condition(const InpModel& m, Conditions& values, const std::pair<std::string, int>& place,
                    double size, const InpSaid& said, const io::inp::Line& line, bool adds);
-/// A load on a set, or on its parts.
-void add_load(const InpReading& r, Conditions& values, const std::pair<std::string, int>& place,
-              double size, const InpSaid& said, const io::inp::Line& line);
+/// The same on a set, or on its parts.
+void set_on_parts(const InpReading& r, Conditions& values, const std::pair<std::string, int>& place,
+                  double size, const InpSaid& said, const io::inp::Line& line, bool adds);
 /// Real or imaginary ones.
 [[nodiscard]] InpConditions& part_of(const InpReading& r, const io::inp::Card& card);
 /// What a step has said is what the next ones find.
 void end_conditions(InpActing& acting);
 /// Notes sets of loads of a step that overlap others, which a step before has loaded in the same
-/// direction; the parts of all of them, which become new sets. In inp_load_parts.cpp.
+/// direction, and sets of supports that hold nodes of each other in another way, or are released
+/// together; the parts of all of them, which become new sets. In inp_load_parts.cpp.
 void note_overlaps(const InpModel& m, const Conditions& loads, InpOverlaps& overlaps);
+void note_overlaps_of_supports(const InpModel& m, const Conditions& prescribed,
+                               InpOverlaps& overlaps);
 [[nodiscard]] InpLoadParts load_parts(InpModel& m, const InpOverlaps& overlaps);
 
 // ---- motions along vibrations: inp_vibrations.cpp ---------------------------------------------

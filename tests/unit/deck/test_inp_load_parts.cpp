@@ -131,6 +131,50 @@ TEST(InpLoadParts, SetsOfWhichNoneReplacesTheOtherStayWhole) {
   EXPECT_FALSE(has_parts(a_step("*DLOAD\nEALL, P2, 1.\n") + a_step("*DLOAD\n2, P3, 10.\n")));
 }
 
+std::string held(std::initializer_list<int> nodes, int direction, double by = 0) {
+  std::string lines;
+  for (const int node : nodes) lines += fmt::format("{0}, {1}, {1}, {2}\n", node, direction, by);
+  return lines;
+}
+
+// CalculiX' displacements of the deck supports_replaced: the last line of a node counts.
+TEST(InpLoadParts, SupportsOfLaterLinesReplaceThoseOfTheirNodes) {
+  const std::string a = "*BOUNDARY\nA, 3, 3, 1e-3\n";
+  expect_same(a_step(a + "7, 3, 3, 5e-3\n") + a_step("*BOUNDARY\nB, 3, 3, 2e-3\n"),
+              a_step("*BOUNDARY\n" + held({5, 6, 8}, 3, 1e-3) + held({7}, 3, 5e-3)) +
+                  a_step("*BOUNDARY\n" + held({6, 7, 11, 12}, 3, 2e-3)));
+  expect_same(a + a_step("*BOUNDARY\n7, 3, 3, 5e-3\n"),
+              a_step("*BOUNDARY\n" + held({5, 6, 8}, 3, 1e-3) + held({7}, 3, 5e-3)));
+  // both end, and share nodes 6 and 7
+  expect_same(a_step("*BOUNDARY\nA, 3, 3, 1e-3\nB, 3, 3, 2e-3\n") +
+                  a_step("*BOUNDARY, OP=NEW\nBASE, 1, 3\n*CLOAD\nA, 3, 1.\n"),
+              a_step("*BOUNDARY\n" + held({5, 8}, 3, 1e-3) + held({6, 7, 11, 12}, 3, 2e-3)) +
+                  a_step("*BOUNDARY, OP=NEW\nBASE, 1, 3\n*CLOAD\nA, 3, 1.\n"));
+}
+
+// CalculiX' displacement there: 0.0038 under 1 at each node of a cube with E = 1000.
+TEST(InpLoadParts, NewSupportsOfTheFirstStepEndThoseBeforeIt) {
+  const std::string before = "*BOUNDARY\nA, 1, 3\nB, 2, 2, 1e-2\n";
+  const std::string held_again = "*BOUNDARY, OP=NEW\nBASE, 1, 3\n";
+  const std::string pulled = "*CLOAD\nA, 3, 1.\n";
+  expect_same(before + a_step(held_again + pulled), a_step(pulled));
+  expect_same(a_step(pulled) + before + a_step(held_again + pulled), a_step(pulled) + a_step(""));
+  // a support of the step before and one said behind it both end
+  expect_same(
+      a_step("*BOUNDARY\nA, 3, 3, 1e-3\n") + "*BOUNDARY\nA, 3, 3, 2e-3\n" +
+          a_step(held_again + "B, 3, 3, 1e-3\n"),
+      a_step("*BOUNDARY\nA, 3, 3, 1e-3\n") + a_step(held_again + held({6, 7, 11, 12}, 3, 1e-3)));
+}
+
+TEST(InpLoadParts, SupportsThatAgreeStayWhole) {
+  const auto has_parts = [](const std::string& cards) {
+    return text_of(cards).find("\nsets:") != std::string::npos;
+  };
+  EXPECT_FALSE(has_parts(a_step("*BOUNDARY\nA, 1, 3\nB, 3, 3\n") + a_step("")));
+  EXPECT_FALSE(has_parts(a_step("*BOUNDARY\nA, 3, 3, 1e-3\nB, 2, 2\n")));
+  EXPECT_TRUE(has_parts(a_step("*BOUNDARY\nA, 3, 3, 1e-3\nB, 3, 3\n")));
+}
+
 /// CalculiX replaces GRAV of the same set and direction, and adds others.
 TEST(InpLoadParts, GravityOfOtherSetsAndDirectionsAdds) {
   const auto down = [](const std::string& on, double size) {
