@@ -253,11 +253,13 @@ CaseResult contact_patch_space(const CaseContext& context) {
   for (const Kind& k : kinds) add_matching_gauss(k.type, k.face, out, balance, context.threads);
   for (const Kind& k : kinds)
     for (const char* const sampling :
-         {"nodes", "{gauss: 2}", "{gauss: 4}", "{lobatto: 3}", "mortar"})
+         {"nodes", "{gauss: 2}", "{gauss: 4}", "{lobatto: 3}", "{gauss: 2, segments: true}",
+          "{gauss: 3, segments: true}", "mortar"})
       add_other_mesh(k.type, k.face, sampling, out, balance, context.threads);
   for (const std::size_t lower : {0, 1, 2, 4, 5})
     for (const std::size_t upper : {0, 1, 2, 4, 5})
-      for (const char* const sampling : {"nodes", "{gauss: 2}", "{lobatto: 3}", "mortar"})
+      for (const char* const sampling :
+           {"nodes", "{gauss: 2}", "{lobatto: 3}", "{gauss: 3, segments: true}", "mortar"})
         if (lower < upper)
           add_other_faces(kinds[lower], kinds[upper], sampling, out, balance, context.threads);
   out.rows.push_back({"largest unbalance of forces / load, all of the above", balance, 1e-11,

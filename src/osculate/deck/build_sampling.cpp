@@ -75,7 +75,7 @@ pairing::Sampling rule_of(const Sampling& s) {
   const Rule rule = s.rule == SamplingRule::gauss     ? Rule::gauss
                     : s.rule == SamplingRule::lobatto ? Rule::lobatto
                                                       : Rule::nodes;
-  return {rule, s.points, s.subdomains};
+  return {rule, s.points, s.subdomains, s.segments};
 }
 
 /// Nodes of the coarser of two deformable sides: what lies between them on the other is not seen.
@@ -109,7 +109,8 @@ void warn_of_coarse_nodes(BuildContext<Dim>& c, const Contact& contact,
 template <int Dim>
 void set_points(BuildContext<Dim>& c, const Contact& contact, pairing::PairDefinition<Dim>& pair) {
   try {
-    pairing::sample(pair.slave, rule_of(chosen_sampling(c, contact, pair)));
+    pairing::sample<Dim>(pair.slave, rule_of(chosen_sampling(c, contact, pair)),
+                         {&pair.master, c.model().reference});
   } catch (const core::GeometryError& error) {
     throw core::InputError(contact.sampling.mark, error.what());
   }

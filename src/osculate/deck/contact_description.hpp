@@ -44,6 +44,7 @@ struct Enforcement {
 struct Sampling {
   SamplingRule rule = SamplingRule::nodes;
   int points = 0, subdomains = 1;
+  bool segments = false;  ///< facets are cut by edges of the master
 };
 
 enum class SeparationWord { allowed, no_separation, tied_normal, tied };

@@ -33,9 +33,7 @@ bool has_slave_of_nodes(const InpModel& m, const Card& card, const std::string& 
 }
 
 /// Mortar: unknown tractions of hard contact, and the law of pressure where there is one. Nodes,
-/// or Gauss points: three per direction of a facet, six of one that is tied: ccx integrates over
-/// the parts of the facets that lie on one facet of the master, and coarse facets on fine ones need
-/// as many to come near that (docs/inp.md).
+/// or Gauss points on the parts of the facets that lie over one facet of the master, as there.
 void put_sampling(InpModel& m, const Card& card, const std::string& slave,
                   const InpInteraction& law, SourceNode& pair) {
   const int at = line_of(card.at);
@@ -64,8 +62,9 @@ void put_sampling(InpModel& m, const Card& card, const std::string& slave,
     }
     return;
   }
-  put(put(pair, "sampling", inp_map(at)), "gauss",
-      inp_number(inp_is_tied(law.behavior) ? 6 : 3, at));
+  SourceNode& sampling = put(pair, "sampling", inp_map(at));
+  put(sampling, "gauss", inp_number(3, at));
+  put(sampling, "segments", inp_text("true", at)).quoted = false;
 }
 
 /// `slave_master`, with a number where that is taken.

@@ -12,6 +12,12 @@ Spec sampling_spec() {
                          .at_most(50)
                          .otherwise("1")
                          .such_as("2");
+  const Spec segments =
+      boolean(
+          "A facet that edges of the master cross at the start has these points on each of its "
+          "parts (segment-based integration).")
+          .otherwise("false")
+          .such_as("true");
   return either(
              "Where the slave side is tested for contact.",
              {choice(
@@ -28,7 +34,7 @@ Spec sampling_spec() {
               map("Points of a quadrature rule on the slave facets (segment to segment).",
                   {optional("gauss", Spec(points).at_least(1).such_as("2")),
                    optional("lobatto", Spec(points).at_least(2).such_as("5")),
-                   optional("subdomains", parts)})
+                   optional("subdomains", parts), optional("segments", segments)})
                   .with(Group::Rule::exactly_one, {"gauss", "lobatto"})})
       .otherwise("auto")
       .such_as("{lobatto: 5, subdomains: 2}");
@@ -37,10 +43,10 @@ Spec sampling_spec() {
 Marked<Sampling> sampling_of(const Value& v) {
   if (v.alternative == 0) return {{word_of<SamplingRule>(v).value}, v.mark};
   const Value* const gauss = v.find("gauss");
-  return {
-      {gauss ? SamplingRule::gauss : SamplingRule::lobatto,
-       integer_of(gauss ? *gauss : v.at("lobatto")).value, integer_of(v.at("subdomains")).value},
-      v.mark};
+  return {{gauss ? SamplingRule::gauss : SamplingRule::lobatto,
+           integer_of(gauss ? *gauss : v.at("lobatto")).value, integer_of(v.at("subdomains")).value,
+           v.at("segments").code != 0},
+          v.mark};
 }
 
 }  // namespace

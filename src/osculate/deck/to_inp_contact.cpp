@@ -174,12 +174,11 @@ PairType type_of_pair(const Contact& contact, const model::BasicModel<Dim>& m,
   const bool of_nodes = slave.cells.empty() || contact.area_by == AreaWord::around ||
                         contact.area_by == AreaWord::master;
   const bool curved = !of_nodes && mesh.is_curved(contact.slave);
-  const bool tied = contact.normal.separation.value == SeparationWord::tied;
   const auto pair =
       std::ranges::find(m.pairs, contact.name.value, [](const auto& one) { return one.name; });
   bool nodes = asked.rule == SamplingRule::nodes;
-  bool gauss =
-      asked.rule == SamplingRule::gauss && asked.subdomains == 1 && asked.points == (tied ? 6 : 3);
+  bool gauss = asked.rule == SamplingRule::gauss && asked.subdomains == 1 && asked.points == 3 &&
+               asked.segments;
   if (asked.rule == SamplingRule::automatic && pair != m.pairs.end()) {
     nodes = pairing::sampled_at_nodes(pair->definition.slave);
     gauss = !nodes;
@@ -196,7 +195,7 @@ PairType type_of_pair(const Contact& contact, const model::BasicModel<Dim>& m,
   if ((nodes && curved && !middles) || (!nodes && !gauss))
     throw core::InputError(
         contact.sampling.mark.line > 0 ? contact.sampling.mark : contact.name.mark,
-        "an input file has nodes of first-order facets, and gauss: 3 (tied 6)");
+        "an input file has nodes of first-order facets, and {gauss: 3, segments: true}");
   leaves.take(path + ".sampling");
   if (middles || (of_nodes && contact.area_by == area_of_nodes(m, slave)))
     (void)leaves.text(path + ".weight.area");

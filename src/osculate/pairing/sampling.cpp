@@ -1,8 +1,12 @@
 #include "osculate/pairing/sampling.hpp"
 
+#include <numeric>
+#include <optional>
+
 #include "osculate/cell/quadrature.hpp"
 #include "osculate/core/error.hpp"
 #include "osculate/pairing/area_element.hpp"
+#include "osculate/pairing/cut_facets.hpp"
 
 namespace osculate::pairing {
 namespace {
@@ -127,16 +131,72 @@ struct Rules<3> {
 
 Rules<2> rules_for(const SlaveSide<2>&, const Sampling& s) { return Rules<2>(s); }
 Rules<3> rules_for(const SlaveSide<3>& side, const Sampling& s) {
-  bool triangles = false;
+  bool triangles = s.cut;
   for (const SurfaceFacet& facet : side.boundary.facets)
     triangles = triangles || cell::is_triangle(facet.type);
   return {s, triangles};
 }
 
+/// Adds the rule's places on a part, with weights in the cell.
+void add_part(const CellPart<2>& part, const Rules<2>& rules, Rule<2>& out) {
+  const double middle = 0.5 * (part.corners[0][0] + part.corners[1][0]);
+  const double half = 0.5 * (part.corners[1][0] - part.corners[0][0]);
+  for (std::size_t q = 0; q < rules.line.places.size(); ++q)
+    out.add(Vec<1>(middle + half * rules.line.places[q][0]), half * rules.line.weights[q]);
+}
+void add_part(const CellPart<3>& part, const Rules<3>& rules, Rule<3>& out) {
+  const cell::CellType type = part.count == 3 ? cell::CellType::tri3 : cell::CellType::quad4;
+  const Rule<3>& rule = part.count == 3 ? rules.triangle : rules.square;
+  for (std::size_t q = 0; q < rule.places.size(); ++q) {
+    const cell::FacetShape s = cell::facet_shape(type, rule.places[q], 1);
+    Vec2 at = Vec2::Zero(), along_1 = Vec2::Zero(), along_2 = Vec2::Zero();
+    for (std::size_t k = 0; k < static_cast<std::size_t>(part.count); ++k) {
+      at += s.n[0][k] * part.corners[k];
+      along_1 += s.n[1][k] * part.corners[k];
+      along_2 += s.n[2][k] * part.corners[k];
+    }
+    out.add(at, rule.weights[q] * (along_1.x() * along_2.y() - along_1.y() * along_2.x()));
+  }
+}
+
+template <int Dim>
+double sum_of_weights(const Rule<Dim>& rule) {
+  return std::accumulate(rule.weights.begin(), rule.weights.end(), 0.0);
+}
+
+template <int Dim>
+Rule<Dim> rule_of_parts(const std::vector<CellPart<Dim>>& parts, const Rules<Dim>& rules,
+                        const Rule<Dim>& whole) {
+  Rule<Dim> rule;
+  for (const CellPart<Dim>& part : parts) add_part(part, rules, rule);
+  const double scale = sum_of_weights(whole) / sum_of_weights(rule);
+  for (double& weight : rule.weights) weight *= scale;
+  return rule;
+}
+
+template <int Dim>
+void add_points(const Rule<Dim>& rule, std::size_t f, bool inside, SlaveSide<Dim>& side) {
+  const auto& facet = side.boundary.facets[f];
+  for (std::size_t q = 0; q < rule.places.size(); ++q) {
+    SlavePoint<Dim> point;
+    point.facet = static_cast<Index>(f);
+    point.xi = rule.places[q];
+    point.weight = rule.weights[q];
+    point.inside = inside;
+    point.count = facet.count;
+    const auto shape = shape_at(facet, point.xi);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(facet.count); ++k) {
+      point.nodes[k] = facet.nodes[k];
+      point.shape[k] = shape.n[0][k];
+    }
+    side.points.push_back(point);
+  }
+}
+
 }  // namespace
 
 template <int Dim>
-void sample(SlaveSide<Dim>& side, const Sampling& sampling) {
+void sample(SlaveSide<Dim>& side, const Sampling& sampling, const CutBy<Dim>& by) {
   if (sampling.rule == Sampling::Rule::nodes) {
     sample_nodes(side);
     return;
@@ -146,24 +206,15 @@ void sample(SlaveSide<Dim>& side, const Sampling& sampling) {
       throw core::GeometryError(
           "nodes without facets have no other contact points than themselves");
   const Rules<Dim> rules = rules_for(side, sampling);
+  std::optional<FacetCutter<Dim>> cutter;
+  if (sampling.cut) cutter.emplace(side.boundary, *by.master, by.x);
   side.points.clear();
   for (std::size_t f = 0; f < side.boundary.facets.size(); ++f) {
-    const auto& facet = side.boundary.facets[f];
-    const Rule<Dim>& rule = rules.of(facet);
-    for (std::size_t q = 0; q < rule.places.size(); ++q) {
-      SlavePoint<Dim> point;
-      point.facet = static_cast<Index>(f);
-      point.xi = rule.places[q];
-      point.weight = rule.weights[q];
-      point.inside = sampling.rule == Sampling::Rule::gauss;
-      point.count = facet.count;
-      const auto shape = shape_at(facet, point.xi);
-      for (std::size_t k = 0; k < static_cast<std::size_t>(facet.count); ++k) {
-        point.nodes[k] = facet.nodes[k];
-        point.shape[k] = shape.n[0][k];
-      }
-      side.points.push_back(point);
-    }
+    const Rule<Dim>& whole = rules.of(side.boundary.facets[f]);
+    const bool inside = sampling.rule == Sampling::Rule::gauss;
+    std::vector<CellPart<Dim>> parts;
+    if (cutter) parts = cutter->parts(static_cast<Index>(f));
+    add_points(parts.empty() ? whole : rule_of_parts(parts, rules, whole), f, inside, side);
   }
 }
 
@@ -207,8 +258,8 @@ void point_normals(const SlaveSide<Dim>& side, std::type_identity_t<std::span<co
                            side.points[i].xi, x);
 }
 
-template void sample<2>(SlaveSide<2>&, const Sampling&);
-template void sample<3>(SlaveSide<3>&, const Sampling&);
+template void sample<2>(SlaveSide<2>&, const Sampling&, const CutBy<2>&);
+template void sample<3>(SlaveSide<3>&, const Sampling&, const CutBy<3>&);
 template void point_areas<2>(const SlaveSide<2>&, std::span<const Vec2>, const AreaRule&,
                              std::vector<double>&, std::vector<std::vector<NodeGradient<2>>>*);
 template void point_areas<3>(const SlaveSide<3>&, std::span<const Vec3>, const AreaRule&,

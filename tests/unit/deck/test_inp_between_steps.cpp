@@ -222,7 +222,7 @@ TEST(InpBetweenSteps, WhatIsTied) {
   expect_in(text, "normal: {penalty: 50000, separation: tied, tolerance: any, initial_gap: close}");
   expect_in(text, "friction:\n      rough: {penalty: 2000}");
   expect_in(text, "initial: ramp");
-  expect_in(text, "sampling: {gauss: 6}");
+  expect_in(text, "sampling: {gauss: 3, segments: true}");
   const auto has = [](const std::string& in, const std::string& word) {
     return in.find(word) != std::string::npos;
   };
@@ -347,10 +347,12 @@ TEST(InpBetweenSteps, OfTwoSlavesWithOneNameThatOfNodesCounts) {
   };
   expect_in(contact("FOOT\n", "NODE TO SURFACE"),
             "slave: SLAVE\n    sampling: nodes\n    weight: {area: around}");
-  expect_in(contact("FOOT\n", "SURFACE TO SURFACE"), "slave: SLAVE\n    sampling: {gauss: 3}");
+  expect_in(contact("FOOT\n", "SURFACE TO SURFACE"),
+            "slave: SLAVE\n    sampling: {gauss: 3, segments: true}");
   expect_in(contact("11, 12\n", "NODE TO SURFACE"),
             "slave: SLAVE.surface_nodes\n    sampling: nodes\n    weight: {area: around}");
-  expect_in(contact("11, 12\n", "SURFACE TO SURFACE"), "slave: SLAVE\n    sampling: {gauss: 3}");
+  expect_in(contact("11, 12\n", "SURFACE TO SURFACE"),
+            "slave: SLAVE\n    sampling: {gauss: 3, segments: true}");
 }
 
 TEST(InpBetweenSteps, StepsInTime) {

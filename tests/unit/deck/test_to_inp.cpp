@@ -449,7 +449,7 @@ TEST(ToInp, AClearanceOfNodesIsLostInCalculix) {
     return found;
   };
   EXPECT_EQ(lost("nodes"), 1U);
-  EXPECT_EQ(lost("{gauss: 3}"), 0U);
+  EXPECT_EQ(lost("{gauss: 3, segments: true}"), 0U);
 }
 
 TEST(ToInp, LawsOfContactGoThereAndBack) {
@@ -475,11 +475,13 @@ TEST(ToInp, LawsOfContactGoThereAndBack) {
   EXPECT_THAT(text, HasSubstr("LINEAR\n10000, 2, 0.01\n"));
   EXPECT_THAT(text, HasSubstr("*SURFACE, NAME=high.bottom_nodes, TYPE=NODE\nhigh.bottom,\n"));
   EXPECT_EQ(pair.area_by, AreaWord::around);
-  pair = pair_again("sampling: {gauss: 3}, normal: {}", text);
+  pair = pair_again("sampling: {gauss: 3, segments: true}, normal: {}", text);
   EXPECT_THAT(text, HasSubstr("*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=HARD\n"));
   EXPECT_TRUE(pair.normal.law.automatic);
   for (const std::string law : {"penalty: 1e4, ", ""}) {
-    pair = pair_again("sampling: {gauss: 3}, normal: {" + law + "separation: no_separation}", text);
+    pair = pair_again(
+        "sampling: {gauss: 3, segments: true}, normal: {" + law + "separation: no_separation}",
+        text);
     EXPECT_THAT(text, HasSubstr("*SURFACE BEHAVIOR, NO SEPARATION, PRESSURE-OVERCLOSURE="));
     EXPECT_EQ(pair.normal.separation.value, SeparationWord::no_separation);
     EXPECT_EQ(pair.normal.law.automatic, law.empty());
