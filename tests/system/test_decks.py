@@ -276,7 +276,7 @@ class Decks(unittest.TestCase):
         """The bolt keeps its 10 kN while the flanges press on each other, and takes all once they have parted."""
         joint = pathlib.Path(__file__).resolve().parents[2] / "examples/bolted_joint/joint.inp"
         text = joint.read_text()
-        for pull, expected, within in ((600, 10006.3, 1), (2000, 20000, 0.1)):
+        for pull, expected, within in ((600, 9995.1, 1), (2000, 20000, 0.1)):
             self.write("joint.inp", text.replace(", 3, 600\n", f", 3, {pull}\n").replace(", 3, 300\n", f", 3, {pull / 2}\n"))
             done = self.run_program("ccx", "-i", "joint")
             self.assertEqual(done.returncode, 0, done.stderr)
