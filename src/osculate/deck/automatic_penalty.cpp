@@ -49,7 +49,9 @@ void set_automatic(BuildContext<Dim>& c, const Contact& contact,
         fmt::format("'auto' finds no deformable cell behind the facets of '{}': give a number",
                     out.name));
   const double per = pair.weight == pairing::Weight::node ? area_per_point(c, pair, mark) : 1.0;
-  if (law.automatic) pair.normal = contact::with_stiffness(pair.normal, stiffness.normal * per);
+  const double factor = contact.normal.auto_factor ? contact.normal.auto_factor->value : 1;
+  if (law.automatic)
+    pair.normal = contact::with_stiffness(pair.normal, factor * stiffness.normal * per);
   if (shear) pair.friction = contact::with_stiffness(*pair.friction, stiffness.shear * per);
 }
 

@@ -96,6 +96,8 @@ void apply(const BuildContext<Dim>& c, const ContactChange& change,
     if (n.damping)
       throw core::InputError(n.damping->mark,
                              "damping changes by the key `damping` of the change, not by `normal`");
+    if (n.auto_factor)
+      throw core::InputError(n.auto_factor->mark, "a stiffness `auto` stays that of the pair");
     to.normal = n.law.law;
     if (n.law.automatic) {
       const double penalty = contact::penalty_of(pair.normal);

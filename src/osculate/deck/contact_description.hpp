@@ -62,6 +62,7 @@ struct GivenLaw {
 
 struct NormalDescription {
   GivenLaw<contact::NormalLaw> law;
+  std::optional<Number> auto_factor;  ///< times the stiffness of the bodies
   std::optional<GivenLaw<contact::DampingLaw>> damping;
   Marked<SeparationWord> separation;
   std::optional<Number> tolerance;

@@ -283,6 +283,9 @@ bool contact_is_damped(const InpModel& m, std::span<const Card> cards) {
 void put_laws(const InpModel& m, const InpInteraction& law, SourceNode& pair, double clearance) {
   SourceNode& normal =
       put(pair, "normal", inp_normal(m, law.behavior, line_of(law.card->at), clearance));
+  // CalculiX has 50 E, whatever the mesh and the unit of length are
+  if (inp_is_hard(law.behavior) && !find(pair, "enforcement"))
+    put(normal, "auto_factor", inp_number(10, line_of(law.card->at)));
   const Card* const damping = contact_is_damped(m, {}) ? law.damping : nullptr;
   if (damping) put_damping(m, *damping, normal);
   SourceNode friction = inp_shear(m, law.behavior, law.friction, damping);

@@ -31,7 +31,13 @@ BoundKey<NormalDescription> tied_tolerance_key() {
 /// What holds points together that are pulled apart.
 BoundKeys<NormalDescription> holding_keys() {
   using N = NormalDescription;
-  return {{may(&N::separation, "separation",
+  return {{may(&N::auto_factor, "auto_factor",
+               number("So many times the stiffness that `auto` takes from the cells behind both "
+                      "sides.")
+                   .above(0)
+                   .otherwise_as("1")
+                   .such_as("10")),
+           may(&N::separation, "separation",
                choice("Whether points that touch may part again.",
                       {word("allowed", SeparationWord::allowed, "they part when they are pulled"),
                        word("no_separation", SeparationWord::no_separation,
@@ -112,6 +118,9 @@ void read_damping(const Value& v, NormalDescription& n) {
 void read_normal(const Value& v, NormalDescription& n) {
   n.law = normal_law_of(v);
   holding_keys().read(v, n);
+  if (n.auto_factor && !n.law.automatic)
+    throw core::InputError(n.auto_factor->mark,
+                           "auto_factor goes with a law whose stiffness is `auto`");
   if (!contact::holds(n.law.law) && n.separation.value != SeparationWord::allowed)
     throw core::InputError(n.separation.mark, std::string(pairing::why_not(
                                                   pairing::Trait::held, pairing::Trait::gap_law)));

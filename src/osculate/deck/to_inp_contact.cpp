@@ -49,6 +49,9 @@ std::string written_pressure(const std::string& path, Leaves& leaves) {
                               exact(*pressure));
   if (const std::string table = written_table(path + ".table", leaves); !table.empty())
     return text + "TABULAR\n" + table;
+  constexpr double of_decks = 10;
+  if (leaves.number(path + ".auto_factor").value_or(of_decks) != of_decks)
+    leaves.fail(path + ".auto_factor", "is 10 in an input file (HARD)");
   return text + "HARD\n";
 }
 

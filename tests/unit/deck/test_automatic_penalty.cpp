@@ -39,6 +39,24 @@ TEST(AutomaticPenalty, IsTenTimesTheTwoLayersBehindEachOther) {
   EXPECT_NEAR(pair.height, 0.25, 1e-12);
 }
 
+TEST(AutomaticPenalty, IsAsManyTimesThatAsOneSays) {
+  const auto penalty = [](const std::string& keys) {
+    return contact::penalty_of(build_text(blocks(keys)).model.pairs.at(0).definition.normal);
+  };
+  EXPECT_NEAR(penalty(", normal: {auto_factor: 10}"), 10 * penalty(""), 1e-9);
+  const auto refusal = [](const std::string& keys) -> std::string {
+    try {
+      (void)build_text(blocks(keys));
+    } catch (const core::InputError& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  EXPECT_NE(refusal(", normal: {penalty: 100, auto_factor: 10}")
+                .find("auto_factor goes with a law whose stiffness is `auto`"),
+            std::string::npos);
+}
+
 TEST(AutomaticPenalty, ARigidSideGivesNothing) {
   std::string text = blocks("");
   text = edited(text, "steps:", "rigid: {tool: {set: high}}\nsteps:");

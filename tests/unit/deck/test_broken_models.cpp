@@ -53,7 +53,7 @@ TEST(BrokenModels, UnknownKeysNameTheNearest) {
       {"penalty: 2.1e6}\n    friction", "penalty: 2.1e6, <<: 1}\n    friction",
        "model.yaml:16: contact[0].normal: unknown key '<<'; known: penalty, exponential, table, "
        "decaying, tensile, user, "
-       "damping, separation, tolerance, initial_gap"},
+       "damping, auto_factor, separation, tolerance, initial_gap"},
   });
 }
 

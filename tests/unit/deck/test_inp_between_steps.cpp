@@ -268,7 +268,7 @@ TEST(InpBetweenSteps, LawsOfAbaqus) {
             "mu: 0.3\n        kinetic: 0.2\n        decay: {speed: 0.25}\n");
   expect_in(contact("*FRICTION, EXPONENTIAL DECAY\n0.3, 0.2, 0.\n"), "coulomb: {mu: 0.3}");
   expect_in(contact("*SURFACE BEHAVIOR, NO SEPARATION, PRESSURE-OVERCLOSURE=HARD\n"),
-            "normal: {separation: no_separation}");
+            "normal: {separation: no_separation, auto_factor: 10}");
   expect_in(contact("*SURFACE BEHAVIOR, NO SEPARATION, PRESSURE-OVERCLOSURE=LINEAR\n5E4\n"),
             "normal: {separation: no_separation, penalty: 50000}");
   expect_in(message_of("*SURFACE INTERACTION, NAME=LAW\n*SURFACE BEHAVIOR, NO SEPARATION, "
