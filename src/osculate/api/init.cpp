@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 
 #include "osculate/api/init_contact.hpp"
@@ -244,11 +245,16 @@ std::string refused(const std::string& text, const std::string& path) {
 StartedModel start_model(const std::string& mesh_path, const std::string& path) {
   const mesh::Mesh mesh = io::read_mesh(mesh_path);
   const MeshSurvey found = survey(mesh);
-  if (found.sections.empty())
+  const bool in_space =
+      found.dimension == 2 && std::ranges::any_of(mesh.nodes, [](const Vec3& x) {
+        return std::abs(x.z()) > 1e-12 * (1 + x.norm());  // as plane models need it
+      });
+  if (found.sections.empty() || in_space)
     throw core::InputError(
         {mesh_path, 0, ""},
         fmt::format("no set of {}: bodies are made of those. {}",
-                    found.dimension == 3 ? "volume cells" : "area cells in the plane",
+                    found.dimension == 3 ? "volume cells"
+                                         : "area cells in the plane z = 0, nor of volume cells",
                     "Give them a physical group (Gmsh) or an element set; a surface alone can be a "
                     "rigid body (`osculate doc rigid.set`) beside others"));
   const Start start{mesh_beside(mesh_path, path), mesh, found};
