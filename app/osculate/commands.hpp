@@ -25,6 +25,7 @@ void add_settings(CLI::App& command, std::vector<std::string>& texts);
 [[nodiscard]] api::RunOutcome run_until_interrupted(api::RunOptions& options);
 
 // One file a command. Each adds its subcommand; the callback stores the exit code.
+void add_init(CLI::App& app, int& exit_code);
 void add_run(CLI::App& app, int& exit_code);
 void add_check(CLI::App& app, int& exit_code);
 void add_tangent(CLI::App& app, int& exit_code);

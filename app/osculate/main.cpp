@@ -15,6 +15,7 @@ int run_program(int argc, char** argv) {
                        std::string("osculate ") + std::string(osculate::core::version));
   app.require_subcommand(1);
   int exit_code = done;
+  add_init(app, exit_code);
   add_run(app, exit_code);
   add_check(app, exit_code);
   add_tangent(app, exit_code);
