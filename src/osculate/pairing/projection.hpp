@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "osculate/core/types.hpp"
+#include "osculate/pairing/gregory.hpp"
 #include "osculate/projection/feature.hpp"
 #include "osculate/search/bvh.hpp"
 
@@ -37,7 +38,8 @@ struct ProjectionQuery {
   /// is continued by `end_extension` there; -1: the nearest one.
   Index kept = -1;
   const NodeFilter<Dim>* filter =
-      nullptr;  ///< null: every facet is a candidate (candidate filter.hpp)
+      nullptr;            ///< null: every facet is a candidate (candidate filter.hpp)
+  PatchPoints patches{};  ///< of the master
   /// An equidistant point has no side of its own: it belongs to the border between both facets.
   [[nodiscard]] bool shares() const {
     return history < 0 || history_feature == projection::Feature::edge ||
