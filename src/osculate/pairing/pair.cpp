@@ -116,8 +116,7 @@ void refresh_facets(const FacetSurface& master, Points<3> x, PairEvaluation<3>& 
   facet_boxes(master, x, out.boxes, out.patches);
 }
 
-/// Blocks of the points, and empty ones of a smooth master's facets: their nodes are 16, and
-/// many slave facets lie over each of them.
+/// Blocks of the points, and empty ones of a smooth master's facets, each under many slave facets.
 template <int Dim>
 void refresh_blocks(const PairDefinition<Dim>& pair, PairEvaluation<Dim>& out) {
   const std::size_t n = pair.slave.points.size();
