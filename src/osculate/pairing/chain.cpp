@@ -89,14 +89,20 @@ geometry::CurveJet<2> facet_jet(const Facet& facet, const cell::LineShape& shape
 
 geometry::LagrangeCurve facet_curve(const Facet& facet, std::span<const Vec2> x) {
   geometry::LagrangeCurve curve;
-  curve.count = facet.bezier ? static_cast<int>(facet.bezier->degree) + 1 : facet.count;
-  for (int k = 0; k < curve.count; ++k) {
-    Vec2& node = curve.nodes[static_cast<std::size_t>(k)];
-    node = x[static_cast<std::size_t>(
-        facet.nodes[static_cast<std::size_t>(std::min(k, facet.count - 1))])];
-    if (facet.bezier && k > 1) node = facet_jet(facet, -1 + 2.0 * (k - 1) / (curve.count - 1), x).r;
-  }
+  curve.count = facet.count;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(facet.count); ++k)
+    curve.nodes[k] = x[static_cast<std::size_t>(facet.nodes[k])];
   return curve;
+}
+
+SmoothCurve::SmoothCurve(const Facet& facet, std::span<const Vec2> x)
+    : degree(facet.bezier->degree) {
+  power.fill(Vec2::Zero());
+  for (std::size_t k = 0; k < static_cast<std::size_t>(facet.count); ++k) {
+    const Vec2& node = x[static_cast<std::size_t>(facet.nodes[k])];
+    for (std::size_t d = 0; d <= degree; ++d)
+      power[d] += facet.bezier->power[d][static_cast<Eigen::Index>(k)] * node;
+  }
 }
 
 namespace {
@@ -108,6 +114,14 @@ const cell::Quadrature1D& curved_rule() {
   return rule;
 }
 
+/// First derivatives of the shape functions of a facet's nodes.
+std::array<double, cell::max_line_nodes> slopes_at(const Facet& facet, double xi) {
+  if (!facet.bezier) return facet_shape(facet, xi).n[1];
+  std::array<double, cell::max_line_nodes> n{};
+  Eigen::Map<Eigen::Array4d>(n.data()) = bezier_slopes(*facet.bezier, xi);
+  return n;
+}
+
 /// Length of facet between a and b (signed) and its gradient.
 double piece_length(const Facet& facet, std::span<const Vec2> x, double a, double b,
                     std::vector<NodeGradient<2>>* gradient) {
@@ -115,26 +129,27 @@ double piece_length(const Facet& facet, std::span<const Vec2> x, double a, doubl
   const double middle = 0.5 * (a + b);
   const bool one_point = facet.straight();
   const int points = one_point ? 1 : curved_points;
+  const auto count = static_cast<std::size_t>(facet.count);
   double length = 0;
-  std::array<Vec2, cell::max_line_nodes> sum;
+  std::array<Vec2, cell::max_line_nodes> nodes, sum;
+  for (std::size_t k = 0; k < count; ++k) nodes[k] = x[static_cast<std::size_t>(facet.nodes[k])];
   sum.fill(Vec2::Zero());
   for (int i = 0; i < points; ++i) {
     const double xi =
         one_point ? middle : middle + half * curved_rule().points[static_cast<std::size_t>(i)];
     const double weight =
         half * (one_point ? 2.0 : curved_rule().weights[static_cast<std::size_t>(i)]);
-    const cell::LineShape shape = facet_shape(facet, xi);
-    const geometry::CurveJet<2> jet = facet_jet(facet, shape, x);
-    const double speed = jet.r1.norm();
+    const std::array<double, cell::max_line_nodes> slope = slopes_at(facet, xi);
+    Vec2 r1 = Vec2::Zero();
+    for (std::size_t k = 0; k < count; ++k) r1 += slope[k] * nodes[k];
+    const double speed = r1.norm();
     length += weight * speed;  // @eq KS2D:19
     if (!gradient || !(speed > 0)) continue;
-    const Vec2 tangent = jet.r1 / speed;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(facet.count); ++k)
-      sum[k] += weight * shape.n[1][k] * tangent;
+    const Vec2 tangent = r1 / speed;
+    for (std::size_t k = 0; k < count; ++k) sum[k] += weight * slope[k] * tangent;
   }
   if (gradient)
-    for (std::size_t k = 0; k < static_cast<std::size_t>(facet.count); ++k)
-      gradient->push_back({facet.nodes[k], sum[k]});
+    for (std::size_t k = 0; k < count; ++k) gradient->push_back({facet.nodes[k], sum[k]});
   return length;
 }
 

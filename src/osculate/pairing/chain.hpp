@@ -59,8 +59,18 @@ void connect(Chain& chain);
 [[nodiscard]] cell::LineShape facet_shape(const Facet& facet, double xi);
 [[nodiscard]] geometry::CurveJet<2> facet_jet(const Facet& facet, const cell::LineShape& shape,
                                               std::span<const Vec2> x);
-/// The present curve of a facet on nodes.
+/// The present curve of a Lagrange line.
 [[nodiscard]] geometry::LagrangeCurve facet_curve(const Facet& facet, std::span<const Vec2> x);
+/// The present curve of a smoothed line by its powers.
+struct SmoothCurve {
+  std::size_t degree = 3;
+  std::array<Vec2, most_control_points> power;
+  SmoothCurve(const Facet& facet, std::span<const Vec2> x);
+  [[nodiscard]] geometry::CurveJet<2> jet(double xi) const {
+    const std::array<Vec2, 4> t = taylor_at(std::span(power).first(degree + 1), xi);
+    return {t[0], t[1], 2 * t[2], 6 * t[3]};
+  }
+};
 [[nodiscard]] inline geometry::CurveJet<2> facet_jet(const Facet& facet, double xi,
                                                      std::span<const Vec2> x) {
   return facet_jet(facet, facet_shape(facet, xi), x);

@@ -91,10 +91,18 @@ CurveFoot foot_on_facet(const Chain& chain, const Facet& facet, std::span<const 
                   query, foot);
     return foot;
   }
+  const auto released = [&](const auto& curve, CurveFoot foot) {
+    release_end([&](double xi) { return curve.jet(xi); }, facet, point, open, query, foot);
+    return foot;
+  };
+  if (facet.bezier) {
+    const SmoothCurve curve(facet, x);
+    const auto jet = [&](double xi) { return curve.jet(xi); };
+    const int samples = 4 * static_cast<int>(curve.degree);
+    return released(curve, projection::closest_on_interval(jet, -1, 1, samples, point));
+  }
   const geometry::LagrangeCurve curve = facet_curve(facet, x);
-  CurveFoot foot = projection::closest_point(curve, point);
-  release_end([&](double xi) { return curve.jet(xi); }, facet, point, open, query, foot);
-  return foot;
+  return released(curve, projection::closest_point(curve, point));
 }
 
 /// Candidate of one facet, and the order among candidates that are equally near.

@@ -8,7 +8,7 @@ namespace osculate::pairing {
 /// Boxes of all facets in configuration `x` (analytic shapes: infinite).
 void facet_boxes(const Chain& chain, std::span<const Vec2> x, std::vector<search::Box<2>>& boxes);
 void facet_boxes(const FacetSurface& surface, std::span<const Vec3> x,
-                 std::vector<search::Box<3>>& boxes);
+                 std::vector<search::Box<3>>& boxes, PatchPoints patches = {});
 
 /// Nearest place of the master. A point that projects onto a border within 1e-8 of the facet's
 /// parameter belongs to both neighbours, so there is no gap at shared nodes and edges. Among

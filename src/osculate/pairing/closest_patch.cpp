@@ -171,17 +171,6 @@ double nearest_on_edge(const EdgeCurve& e, const Vec3& point, double& squared) {
 
 }  // namespace
 
-GregoryPoints patch_points(const SurfaceFacet& facet, std::span<const Vec3> x) {
-  GregoryPoints points;
-  points.fill(Eigen::Array4d::Zero());
-  for (std::size_t k = 0; k < static_cast<std::size_t>(facet.count); ++k) {
-    const Vec3& at = x[static_cast<std::size_t>(facet.nodes[k])];
-    const Eigen::Array4d node(at.x(), at.y(), at.z(), 0);
-    for (std::size_t j = 0; j < gregory_points; ++j) points[j] += facet.patch->weight[j][k] * node;
-  }
-  return points;
-}
-
 FacetFoot closest_on_patch_edge(const PatchQuery& query, int edge) {
   const int corners = cell::is_triangle(query.type) ? 3 : 4;
   FacetFoot foot;

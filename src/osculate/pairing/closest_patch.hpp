@@ -5,9 +5,6 @@
 
 namespace osculate::pairing {
 
-/// Control points of a patch in configuration `x`.
-[[nodiscard]] GregoryPoints patch_points(const SurfaceFacet& facet, std::span<const Vec3> x);
-
 /// The patch seen from a point.
 struct PatchQuery {
   cell::CellType type;

@@ -105,7 +105,8 @@ FacetFoot foot_on_patch(const FacetSurface& surface, const SurfaceFacet& facet,
   FacetNodes buffer;
   const Vec2 start =
       projection::closest_point(facet.type, nodes_of(facet, x, buffer), query.point).xi;
-  const GregoryPoints points = patch_points(facet, x);
+  GregoryPoints room;
+  const GregoryPoints& points = points_of(surface, facet, x, query.patches, room);
   const PatchQuery on_patch{facet.type, points, query.point};
   FacetFoot foot = closest_on_patch(on_patch, start);
   const auto release = [&](double extension, FacetFoot& f) {
@@ -138,10 +139,7 @@ FacetFoot foot_on_facet(const FacetSurface& surface, const SurfaceFacet& facet,
 
 FacetFoot foot_on_edge(const SurfaceFacet& facet, std::span<const Vec3> x, int edge,
                        const Vec3& point) {
-  if (facet.patch) {
-    const GregoryPoints points = patch_points(facet, x);
-    return closest_on_patch_edge({facet.type, points, point}, edge);
-  }
+  if (facet.patch) return closest_on_patch_edge({facet.type, patch_points(facet, x), point}, edge);
   FacetNodes buffer;
   return projection::closest_point_on_edge(facet.type, nodes_of(facet, x, buffer), edge, point);
 }
@@ -278,9 +276,10 @@ void share(const FacetSurface& surface, std::span<const Vec3> x, Index other,
 
 /// Of the angle between the normals of facet and slave; -1 where the slave's does not matter. A
 /// facet that faces the same way as the slave is the far side of a thin body.
-double cosine_at(const SurfaceFacet& facet, const FacetFoot& foot, std::span<const Vec3> x,
-                 const ProjectionQuery<3>& query) {
-  return query.slave_normal ? facet_normal(facet, foot.xi, x).dot(*query.slave_normal) : -1.0;
+double cosine_at(const FacetSurface& surface, const SurfaceFacet& facet, const FacetFoot& foot,
+                 std::span<const Vec3> x, const ProjectionQuery<3>& query) {
+  if (!query.slave_normal) return -1;
+  return facet_normal(surface, facet, foot.xi, x, query.patches).dot(*query.slave_normal);
 }
 
 /// What `entered_through` asks of a candidate.
@@ -294,7 +293,8 @@ struct Look {
   }
   [[nodiscard]] Candidate on(Index f) const {
     const FacetFoot foot = foot_on_facet(surface, facet(f), x, query);
-    return {f, foot, std::sqrt(foot.squared_distance), cosine_at(facet(f), foot, x, query)};
+    return {f, foot, std::sqrt(foot.squared_distance),
+            cosine_at(surface, facet(f), foot, x, query)};
   }
   [[nodiscard]] bool inside(const Candidate& c) const {
     return c.foot.converged && c.foot.feature == Feature::face &&
@@ -313,7 +313,7 @@ Projection<3> on_kept_facet(const FacetSurface& surface, std::span<const Vec3> x
   const SurfaceFacet& facet = surface.facets[static_cast<std::size_t>(query.kept)];
   const FacetFoot foot = foot_on_facet(surface, facet, x, query);
   if (!foot.converged || foot.feature != Feature::face ||
-      cosine_at(facet, foot, x, query) > same_way_cosine)
+      cosine_at(surface, facet, foot, x, query) > same_way_cosine)
     return p;
   p.feature = Feature::face;
   p.facet = query.kept;
@@ -325,7 +325,7 @@ Projection<3> on_kept_facet(const FacetSurface& surface, std::span<const Vec3> x
 }  // namespace
 
 void facet_boxes(const FacetSurface& surface, std::span<const Vec3> x,
-                 std::vector<search::Box<3>>& boxes) {
+                 std::vector<search::Box<3>>& boxes, PatchPoints patches) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   boxes.resize(surface.facets.size());
   for (std::size_t f = 0; f < surface.facets.size(); ++f) {
@@ -338,7 +338,8 @@ void facet_boxes(const FacetSurface& surface, std::span<const Vec3> x,
       continue;
     }
     if (facet.patch) {  // in the hull of its control points
-      const GregoryPoints points = patch_points(facet, x);
+      GregoryPoints room;
+      const GregoryPoints& points = points_of(surface, facet, x, patches, room);
       const std::size_t used = cell::is_triangle(facet.type) ? triangle_points : gregory_points;
       for (std::size_t j = 0; j < used; ++j) box.extend(Vec3(points[j].head<3>()));
       continue;
@@ -369,7 +370,7 @@ Projection<3> closest(const FacetSurface& surface, const Tree<3>& tree, std::spa
     const FacetFoot foot = foot_on_facet(surface, facet, x, query, limit);
     const double distance = std::sqrt(foot.squared_distance);
     if (distance > limit) return distance;
-    const double cosine = cosine_at(facet, foot, x, query);
+    const double cosine = cosine_at(surface, facet, foot, x, query);
     if (!foot.converged || cosine > same_way_cosine) return far_away;
     if (query.filter && !admits(*query.filter, facet, foot.xi, x)) return far_away;
     const Candidate candidate{f, foot, distance, cosine};

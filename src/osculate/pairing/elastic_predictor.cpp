@@ -204,10 +204,18 @@ struct FacetFrame {
   Mat<3, 2> frame;
 };
 
-FacetFrame facet_frame(const SurfaceFacet& facet, const Vec2& xi, std::span<const Vec3> x) {
+/// Of a smooth patch with the first derivatives of the shape functions, or none of these.
+FacetFrame facet_frame(const FacetSurface& surface, const SurfaceFacet& facet, const Vec2& xi,
+                       std::span<const Vec3> x, PatchPoints patches, bool with_shape) {
   FacetFrame f;
-  f.shape = facet_shape(facet, xi, 2);
-  f.jet = facet_jet(facet, f.shape, x);
+  if (facet.patch) {
+    GregoryPoints room;
+    f.jet = patch_jet(facet.type, points_of(surface, facet, x, patches, room), xi);
+    if (with_shape) f.shape = facet_shape(facet, xi, 1);
+  } else {
+    f.shape = facet_shape(facet, xi, 2);
+    f.jet = facet_jet(facet, f.shape, x);
+  }
   f.normal = f.jet.r1[0].cross(f.jet.r1[1]).normalized();
   f.frame = contact::tangent_frame<3>(f.normal, f.jet.r1[0]);
   return f;
@@ -277,14 +285,16 @@ Mat<2, 2> coordinate_motion(const SurfaceFacet& facet, const ProjectedPoint<3>& 
 }
 
 /// By the difference of the coordinates of two facets, for HistoryRule::per_facet.
-ElasticPredictor<3> by_coordinates(const SurfaceFacet& facet, const PointHistory<3>& history,
+ElasticPredictor<3> by_coordinates(const FacetSurface& master, const SurfaceFacet& facet,
+                                   const PointHistory<3>& history,
                                    const ProjectedPoint<3>& projected, double stiffness,
                                    const ContactTimeFraction& time_fraction,
                                    std::span<const Vec3> x, PathBuffers<3>* path) {
   ElasticPredictor<3> out;
   out.known = true;
   const Kinematics<3>& k = projected.kinematics;
-  const FacetFrame here = facet_frame(facet, projected.projection.xi, x);
+  const FacetFrame here =
+      facet_frame(master, facet, projected.projection.xi, x, projected.patches, path != nullptr);
   const Vec2 step = projected.projection.xi - history.xi;
   const Vec2 traction = history.active ? history.traction : Vec2(Vec2::Zero());
   const Vec3 way = step[0] * here.jet.r1[0] + step[1] * here.jet.r1[1];
@@ -330,8 +340,9 @@ ElasticPredictor<3> elastic_predictor(const FacetSurface& master, const PointHis
   const SurfaceFacet& old_facet = master.facets[static_cast<std::size_t>(history.facet)];
   if (facet.piece != old_facet.piece) return out;
   if (rule == HistoryRule::per_facet && &facet != &old_facet)
-    return by_coordinates(facet, history, projected, stiffness, time_fraction, x, path);
-  const FacetFrame old = facet_frame(old_facet, history.xi, x);
+    return by_coordinates(master, facet, history, projected, stiffness, time_fraction, x, path);
+  const FacetFrame old =
+      facet_frame(master, old_facet, history.xi, x, projected.patches, path != nullptr);
   constexpr double opposite = -0.999;
   if (!(old.normal.dot(k.normal) > opposite)) return out;
   out.known = true;
@@ -363,7 +374,8 @@ Vec2 stored_components(const FacetSurface& master, const ProjectedPoint<3>& proj
                        const Vec2& t, std::span<const Vec3> x, HistoryRule) {
   if (projected.projection.feature == projection::Feature::face) return t;
   const SurfaceFacet& facet = master.facets[static_cast<std::size_t>(projected.projection.facet)];
-  const FacetFrame f = facet_frame(facet, projected.projection.xi, x);
+  const FacetFrame f =
+      facet_frame(master, facet, projected.projection.xi, x, projected.patches, false);
   const Kinematics<3>& k = projected.kinematics;
   if (!(f.normal.dot(k.normal) > -0.999)) return Vec2::Zero();
   return f.frame.transpose() * carry(Vec3(k.frame * t), k.normal, f.normal).value;
@@ -376,7 +388,8 @@ Mat<2, 1> stored_frame(const Chain& master, Index facet, const Vec<1>& xi,
 
 Mat<3, 2> stored_frame(const FacetSurface& master, Index facet, const Vec2& xi,
                        std::span<const Vec3> x) {
-  return facet_frame(master.facets[static_cast<std::size_t>(facet)], xi, x).frame;
+  const SurfaceFacet& of = master.facets[static_cast<std::size_t>(facet)];
+  return facet_frame(master, of, xi, x, {}, false).frame;
 }
 
 }  // namespace osculate::pairing

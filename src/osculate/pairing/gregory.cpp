@@ -11,12 +11,13 @@ constexpr std::size_t terms_of(int order) {
   return static_cast<std::size_t>((order + 1) * (order + 2) / 2);
 }
 
+using Four = Eigen::Array4d;
+
 /// Polynomial of degree `Order` in the change of two coordinates: Taylor coefficients in the order
-/// of cell::FacetShape.
-template <int Order>
+/// of cell::FacetShape; or four of them.
+template <int Order, class Number = double>
 struct Taylor {
-  static constexpr std::size_t terms = terms_of(Order);
-  std::array<double, terms> c{};
+  std::array<Number, terms_of(Order)> c;
 };
 
 /// Powers of the two changes, and the place of a pair of powers.
@@ -29,7 +30,7 @@ constexpr std::size_t place(std::size_t i, std::size_t j) {
 
 template <int Order>
 Taylor<Order> linear(double value, double first, double second) {
-  Taylor<Order> t;
+  Taylor<Order> t{};
   t.c[0] = value;
   if constexpr (Order > 0) {
     t.c[1] = first;
@@ -57,15 +58,16 @@ constexpr auto make_meetings() {
 template <int Order>
 constexpr auto meetings = make_meetings<Order>();
 
-template <int Order, std::size_t... N>
-void add_product(const Taylor<Order>& a, const Taylor<Order>& b, Taylor<Order>& out,
-                 std::index_sequence<N...>) {
+template <int Order, class Number, std::size_t... N>
+void add_product(const Taylor<Order, Number>& a, const Taylor<Order, Number>& b,
+                 Taylor<Order, Number>& out, std::index_sequence<N...>) {
   ((out.c[meetings<Order>[N].k] += a.c[meetings<Order>[N].i] * b.c[meetings<Order>[N].j]), ...);
 }
 
-template <int Order>
-Taylor<Order> operator*(const Taylor<Order>& a, const Taylor<Order>& b) {
-  Taylor<Order> out;
+template <int Order, class Number>
+Taylor<Order, Number> operator*(const Taylor<Order, Number>& a, const Taylor<Order, Number>& b) {
+  Taylor<Order, Number> out;
+  out.c.fill(0.0 * a.c[0]);
   add_product(a, b, out, std::make_index_sequence<meetings<Order>.size()>{});
   return out;
 }
@@ -76,20 +78,21 @@ Taylor<Order> operator*(double factor, Taylor<Order> a) {
   return a;
 }
 
-template <int Order>
-Taylor<Order> operator-(Taylor<Order> a, const Taylor<Order>& b) {
+template <int Order, class Number>
+Taylor<Order, Number> operator-(Taylor<Order, Number> a, const Taylor<Order, Number>& b) {
   for (std::size_t k = 0; k < a.c.size(); ++k) a.c[k] -= b.c[k];
   return a;
 }
 
 /// f(s, t) of two linear functions, from its coefficients in their changes.
-template <int Order>
-Taylor<Order> of_linear(const Taylor<Order>& f, const Taylor<Order>& s, const Taylor<Order>& t) {
-  Taylor<Order> out;
+template <int Order, class Number>
+Taylor<Order, Number> of_linear(const Taylor<Order, Number>& f, const Taylor<Order, Number>& s,
+                                const Taylor<Order, Number>& t) {
+  Taylor<Order, Number> out;
   const auto& c = f.c;
   out.c[0] = c[0];
   if constexpr (Order > 0) {
-    const double s1 = s.c[1], s2 = s.c[2], t1 = t.c[1], t2 = t.c[2];
+    const Number s1 = s.c[1], s2 = s.c[2], t1 = t.c[1], t2 = t.c[2];
     out.c[1] = c[1] * s1 + c[2] * t1;
     out.c[2] = c[1] * s2 + c[2] * t2;
     if constexpr (Order > 1) {
@@ -109,39 +112,48 @@ Taylor<Order> of_linear(const Taylor<Order>& f, const Taylor<Order>& s, const Ta
   return out;
 }
 
-/// s^2 / (s^2 + t^2) of two linear functions; 1/2 where both vanish. With s and t exchanged it is
-/// what is left of 1.
+/// What replaces d^-1 and s^2 / d where d = s^2 + t^2 vanishes: no derivatives, half of all.
+double inverse(double d) { return d < 1e-18 ? 0 : 1 / d; }
+Four inverse(const Four& d) { return (d < 1e-18).select(0, 1 / d); }
+double half_where_zero(double e, double f) { return e == 0 ? 0.5 : f; }
+Four half_where_zero(const Four& e, const Four& f) { return (e == 0).select(0.5, f); }
+
+/// s^2 / (s^2 + t^2) by s and t; 1/2 where both vanish. With s and t exchanged it is what is left
+/// of 1.
 ///
 /// Formula    with D = s^2 + t^2:  f_s = 2 s t^2 / D^2,  f_ss = 2 t^2 (t^2 - 3 s^2) / D^3,
 ///            f_st = 4 s t (s^2 - t^2) / D^3,  f_sss = 24 s t^2 (s^2 - t^2) / D^4,
 ///            f_sst = -4 t (t^4 - 8 s^2 t^2 + 3 s^4) / D^4 ;  f(s, t) = 1 - f(t, s) has the others
-template <int Order>
-Taylor<Order> share(const Taylor<Order>& first, const Taylor<Order>& second) {
-  const double s = first.c[0], t = second.c[0], s2 = s * s, t2 = t * t, d = s2 + t2;
-  constexpr double corner = 1e-18;
-  if (d < corner) return linear<Order>(0.5, 0, 0);
-  const double e = 1 / d;
-  Taylor<Order> f;
-  f.c[0] = s2 * e;
+template <int Order, class Number>
+Taylor<Order, Number> share_of(const Number& s, const Number& t) {
+  const Number s2 = s * s, t2 = t * t, e = inverse(Number(s2 + t2));
+  Taylor<Order, Number> f;
+  f.c[0] = half_where_zero(e, Number(s2 * e));
   if constexpr (Order > 0) {
-    const double e2 = e * e;
+    const Number e2 = e * e;
     f.c[1] = 2 * s * t2 * e2;
     f.c[2] = -2 * t * s2 * e2;
     if constexpr (Order > 1) {
-      const double e3 = e2 * e;
+      const Number e3 = e2 * e;
       f.c[3] = t2 * (t2 - 3 * s2) * e3;
       f.c[4] = 4 * s * t * (s2 - t2) * e3;
       f.c[5] = -s2 * (s2 - 3 * t2) * e3;
     }
     if constexpr (Order > 2) {
-      const double e4 = e2 * e2;
+      const Number e4 = e2 * e2;
       f.c[6] = 4 * s * t2 * (s2 - t2) * e4;
       f.c[7] = -2 * t * (t2 * t2 - 8 * s2 * t2 + 3 * s2 * s2) * e4;
       f.c[8] = 2 * s * (s2 * s2 - 8 * s2 * t2 + 3 * t2 * t2) * e4;
       f.c[9] = -4 * t * s2 * (t2 - s2) * e4;
     }
   }
-  return of_linear(f, first, second);
+  return f;
+}
+
+/// The same of two linear functions, by the coordinates.
+template <int Order>
+Taylor<Order> share(const Taylor<Order>& s, const Taylor<Order>& t) {
+  return of_linear(share_of<Order>(s.c[0], t.c[0]), s, t);
 }
 
 /// Taylor coefficients of a function of one coordinate.
@@ -165,31 +177,48 @@ Taylor<Order> outer(const Line& a, const Line& b) {
   return out;
 }
 
-/// The distances of a place of the quadrilateral from its borders, over its width.
+/// Of the four inner points of the quadrilateral, the first coordinate's number running first: the
+/// share of the version for the borders of constant second coordinate, times the Bernstein
+/// polynomials; and these.
 template <int Order>
-struct Distances {
-  std::array<Taylor<Order>, 2> u, v;
-  explicit Distances(const Vec2& xi)
-      : u{linear<Order>(0.5 * (1 + xi.x()), 0.5, 0), linear<Order>(0.5 * (1 - xi.x()), -0.5, 0)},
-        v{linear<Order>(0.5 * (1 + xi.y()), 0, 0.5), linear<Order>(0.5 * (1 - xi.y()), 0, -0.5)} {}
+struct Inner {
+  Taylor<Order, Four> all, part;
+
+  Inner(const Vec2& xi, const std::array<Line, 4>& bu, const std::array<Line, 4>& bv) {
+    const double u = 0.5 * (1 + xi.x()), v = 0.5 * (1 + xi.y());
+    Taylor<Order, Four> f = share_of<Order>(Four(u, 1 - u, u, 1 - u), Four(v, v, 1 - v, 1 - v));
+    const Four a(0.5, -0.5, 0.5, -0.5), b(0.5, 0.5, -0.5, -0.5);  // slopes of both
+    const std::array<Four, 4> of_u{Four::Ones(), a, a * a, a * a * a},
+        of_v{Four::Ones(), b, b * b, b * b * b};
+    for (std::size_t k = 0; k < f.c.size(); ++k) {
+      const auto [i, j] = powers[k];
+      f.c[k] *= of_u[i] * of_v[j];
+      all.c[k] = Four(bu[1][i], bu[2][i], bu[1][i], bu[2][i]) *
+                 Four(bv[1][j], bv[1][j], bv[2][j], bv[2][j]);
+    }
+    part = all * f;
+  }
 };
 
 /// put(j, B_j) for each point.
 template <int Order, class Put>
 void quad_basis(const Vec2& xi, const Put& put) {
-  const Distances<Order> from(xi);
   const std::array<Line, 4> bu = cubics(xi.x()), bv = cubics(xi.y());
   for (std::size_t j = 0; j < 4; ++j)
-    for (std::size_t i = 0; i < 4; ++i) {
-      const Taylor<Order> b = outer<Order>(bu[i], bv[j]);
-      if (i % 3 == 0 || j % 3 == 0) {
-        put(quad_point(i, j), b);
-        continue;
-      }
-      const Taylor<Order> part = b * share(from.u[i - 1], from.v[j - 1]);
-      put(quad_point(i, j), part);
-      put(quad_point(i, j, true), b - part);
-    }
+    for (std::size_t i = 0; i < 4; ++i)
+      if (i % 3 == 0 || j % 3 == 0) put(quad_point(i, j), outer<Order>(bu[i], bv[j]));
+  const Inner<Order> inner(xi, bu, bv);
+  const Taylor<Order, Four> rest = inner.all - inner.part;
+  for (std::size_t n = 0; n < 4; ++n) {
+    const auto of = [n](const Taylor<Order, Four>& four) {
+      Taylor<Order> one;
+      for (std::size_t k = 0; k < one.c.size(); ++k)
+        one.c[k] = four.c[k][static_cast<Eigen::Index>(n)];
+      return one;
+    };
+    put(quad_point(1 + n % 2, 1 + n / 2), of(inner.part));
+    put(quad_point(1 + n % 2, 1 + n / 2, true), of(rest));
+  }
 }
 
 template <int Order, class Put>
@@ -221,8 +250,6 @@ void set_basis(bool triangle, const Vec2& xi, GregoryBasis& out) {
   for (std::size_t d = 0; d < terms_of(Order); ++d)
     for (std::size_t j = triangle_points; j < gregory_points; ++j) out[d][j] = 0;
 }
-
-using Four = Eigen::Array4d;  // nodes at a time
 
 /// Shape functions of the nodes from number `first` on.
 template <int Order>
@@ -266,18 +293,18 @@ GregoryJet quad_jet(const GregoryPoints& points, const Vec2& xi) {
     r12 += bv[j][1] * l1;
     r22 += bv[j][2] * l;
   }
-  const Distances<2> from(xi);
-  for (std::size_t j = 1; j < 3; ++j)
-    for (std::size_t i = 1; i < 3; ++i) {
-      const Taylor<2> part = outer<2>(bu[i], bv[j]) * share(from.u[i - 1], from.v[j - 1]);
-      const Four apart = points[quad_point(i, j)] - points[quad_point(i, j, true)];
-      r += part.c[0] * apart;
-      r1 += part.c[1] * apart;
-      r2 += part.c[2] * apart;
-      r11 += part.c[3] * apart;
-      r12 += part.c[4] * apart;
-      r22 += part.c[5] * apart;
-    }
+  const Inner<2> inner(xi, bu, bv);
+  for (std::size_t n = 0; n < 4; ++n) {
+    const std::size_t i = 1 + n % 2, j = 1 + n / 2;
+    const Four apart = points[quad_point(i, j)] - points[quad_point(i, j, true)];
+    const auto part = [&](std::size_t k) { return inner.part.c[k][static_cast<Eigen::Index>(n)]; };
+    r += part(0) * apart;
+    r1 += part(1) * apart;
+    r2 += part(2) * apart;
+    r11 += part(3) * apart;
+    r12 += part(4) * apart;
+    r22 += part(5) * apart;
+  }
   return {r, r1, r2, 2 * r11, r12, 2 * r22};
 }
 

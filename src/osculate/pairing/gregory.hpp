@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <array>
+#include <span>
 
 #include "osculate/cell/facet_shape.hpp"
 
@@ -40,6 +41,9 @@ using GregoryPoints = std::array<Eigen::Array4d, gregory_points>;
 /// The place r and r_1, r_2; r_11, r_12, r_22 likewise.
 using GregoryJet = std::array<Eigen::Array4d, 6>;
 [[nodiscard]] GregoryJet gregory_jet(bool triangle, const GregoryPoints& points, const Vec2& xi);
+/// Control points of the smooth facets of a surface in one configuration, by facet. Where there are
+/// none they are made when they are asked for.
+using PatchPoints = std::span<const GregoryPoints>;
 
 /// Number in the list of points; of the inner ones near corner (i, j) of the quadrilateral for the
 /// borders of constant second (0) or first (1) coordinate, i, j = 1 or 2.

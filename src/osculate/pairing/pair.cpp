@@ -105,18 +105,23 @@ int largest_block(const PairDefinition<Dim>& pair) {
   return std::max(slave + (both_facets ? 2 : 1) * master, edges_of(pair) ? of_edge_contact : 0);
 }
 
-/// Blocks of the points, and empty ones of a smooth master's facets: their nodes are 16, and
-/// many slave facets lie over each of them.
+void refresh_facets(const Chain& master, Points<2> x, PairEvaluation<2>& out) {
+  facet_boxes(master, x, out.boxes);
+}
+void refresh_facets(const FacetSurface& master, Points<3> x, PairEvaluation<3>& out) {
+  const auto is_smooth = [](const SurfaceFacet& f) { return f.patch != nullptr; };
+  out.patches.resize(std::ranges::any_of(master.facets, is_smooth) ? master.facets.size() : 0);
+  for (std::size_t f = 0; f < out.patches.size(); ++f)
+    if (is_smooth(master.facets[f])) out.patches[f] = patch_points(master.facets[f], x);
+  facet_boxes(master, x, out.boxes, out.patches);
+}
+
+/// Blocks of the points, and empty ones of a smooth master's facets, each under many slave facets.
 template <int Dim>
 void refresh_blocks(const PairDefinition<Dim>& pair, PairEvaluation<Dim>& out) {
   const std::size_t n = pair.slave.points.size();
-  std::size_t facets = 0;
-  if constexpr (Dim == 3) {
-    const bool smooth = std::ranges::any_of(
-        pair.master.facets, [](const SurfaceFacet& f) { return f.patch != nullptr; });
-    if (smooth && !edges_of(pair) && !has_reentrant_vertices(pair))
-      facets = pair.master.facets.size();
-  }
+  const bool shared = !edges_of(pair) && !has_reentrant_vertices(pair);
+  const std::size_t facets = shared ? out.patches.size() : 0;
   out.blocks.resize(n + facets);
   out.master_blocks = facets > 0 ? n : 0;
   for (std::size_t k = n; k < out.blocks.size(); ++k) clear_block(out.blocks[k]);
@@ -127,6 +132,8 @@ void refresh(const PairDefinition<Dim>& pair, Points<Dim> x, bool with_tangent,
              PairEvaluation<Dim>& out) {
   const std::size_t n = pair.slave.points.size();
   out.points.resize(n);
+  const std::size_t before = out.boxes.size();
+  refresh_facets(pair.master, x, out);
   refresh_blocks(pair, out);
   out.taken_multipliers.resize(has_reentrant_vertices(pair) ? n : 0);
   out.block_nodes = largest_block(pair);
@@ -137,8 +144,6 @@ void refresh(const PairDefinition<Dim>& pair, Points<Dim> x, bool with_tangent,
       nodal_areas(pair.filter.parts, x, pair.area, out.filter.areas,
                   with_tangent ? &out.filter.area_gradients : nullptr);
   }
-  const std::size_t before = out.boxes.size();
-  facet_boxes(pair.master, x, out.boxes);
   out.apart = beyond_search(pair, x, out.boxes);
   if (pair.filter.limited()) {
     // The first evaluation gives the tree its shape, so that it does not depend on when they met.
@@ -240,7 +245,8 @@ void evaluate(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Di
     PointContext<Dim> context = context_of(pair, active_set, multipliers, i);
     if (!committed.overlap.empty()) context.relieved = active_set.relief * committed.overlap[i];
     ProjectedPoint<Dim> projected = project_point(pair, out, x, i, committed.points[i],
-                                                  kept_facet<Dim>(pair.master, context.active, x));
+                                                  kept_facet<Dim>(pair.master, context.active, x),
+                                                  derivatives_needed(pair, with_tangent));
     context.way = way_of_gap(pair, active_set, committed.points[i], projected.projection.facet,
                              projected.kinematics.gap);
     laps.add_to(out.seconds.projection);

@@ -231,6 +231,7 @@ struct PairEvaluation {
   std::vector<std::vector<NodeGradient<Dim>>> area_gradients;
   std::vector<Vec<Dim>> normals;  ///< of the slave at its points
   std::vector<search::Box<Dim>> boxes;
+  std::vector<GregoryPoints> patches;  ///< of the master's facets; empty where none is smooth
   Tree<Dim> tree;
   FilterBuffers<Dim> filter;
   MortarBuffers<Dim> mortar;

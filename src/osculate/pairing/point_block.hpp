@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <span>
+#include <type_traits>
 
 #include "osculate/pairing/response.hpp"
 
@@ -53,68 +54,149 @@ void scatter_path(std::span<const Mat<Dim, Dim>> s, const WeightOf& w, double ar
   }
 }
 
-/// Adds to the rows of some of the nodes, at most `most` of them; `into(c)` is where their part of
-/// column c stands.
-template <int Dim, int most, class WeightOf, class Into>
-void scatter_rows(const contact::PointTerms<Dim>& terms, std::array<int, 2> nodes, int count,
-                  const WeightOf& w, double area, const Into& into) {
-  constexpr int width = Dim * static_cast<int>(contact::slots<Dim>);
-  const Eigen::Index n = Dim * (nodes[1] - nodes[0]);
-  Eigen::Matrix<double, Eigen::Dynamic, width, 0, Dim * most, width> rows(n, width);
-  for (int k = nodes[0]; k < nodes[1]; ++k)
-    for (std::size_t b = 0; b < terms.used; ++b) {
-      Mat<Dim, Dim> sum = Mat<Dim, Dim>::Zero();
-      for (std::size_t a = 0; a < terms.used; ++a) {
-        const double weight = w(a, k);
-        if (weight != 0.0) sum += (area * weight) * terms.m[a][b];
-      }
-      rows.template block<Dim, Dim>(Dim * (k - nodes[0]), Dim * static_cast<Eigen::Index>(b)) = sum;
+/// Calls f(0), ... f(count - 1) with constants: a loop without one at run time.
+template <std::size_t count, class F>
+void for_each_of(const F& f) {
+  [&]<std::size_t... k>(std::index_sequence<k...>) {
+    (f(std::integral_constant<std::size_t, k>{}), ...);
+  }
+  (std::make_index_sequence<count>{});
+}
+
+/// Rows of a tangent that belong to some of the nodes, by what they are the sum of.
+///
+/// Formula    rows_k = sum_a w_a,k form_a ,  form_a = sum_b m[a][b] w_b
+template <int Dim, std::size_t used, int most>
+struct TangentRows {
+  std::array<std::array<double, Dim * most>, used> weights;  ///< by slot, of each node Dim times
+  int nodes = 0;
+
+  template <class WeightOf>
+  TangentRows(std::array<int, 2> range, const WeightOf& w, double area)
+      : nodes(range[1] - range[0]) {
+    for (std::size_t a = 0; a < used; ++a)
+      for (int k = 0; k < nodes; ++k)
+        std::fill_n(&weights[a][static_cast<std::size_t>(Dim * k)], Dim, area * w(a, range[0] + k));
+  }
+  /// Sets a column of these rows, or adds to it; four nodes at a time.
+  void put(const std::array<Eigen::Array4d, used>& form, bool add, double* column) const {
+    using Four = Eigen::Array4d;
+    constexpr auto d = static_cast<std::size_t>(Dim);
+    std::array<std::array<Four, d>, used> v;  // the column of each form, four times over
+    for_each_of<used>([&](auto a) {
+      for_each_of<d>([&](auto i) {
+        v[a][i] = Four(form[a][4 * i % d], form[a][(4 * i + 1) % d], form[a][(4 * i + 2) % d],
+                       form[a][(4 * i + 3) % d]);
+      });
+    });
+    const auto whole = d * (static_cast<std::size_t>(nodes) & ~std::size_t{3});
+    for (std::size_t row = 0; row < whole; row += 4 * d)
+      for_each_of<d>([&](auto i) {
+        Eigen::Map<Four> part(column + row + 4 * i);
+        Four sum = Four::Zero();
+        if (add) sum = part;
+        for_each_of<used>(
+            [&](auto a) { sum += v[a][i] * Eigen::Map<const Four>(&weights[a][row + 4 * i]); });
+        part = sum;
+      });
+    for (std::size_t row = whole; row < d * static_cast<std::size_t>(nodes); ++row) {
+      double sum = add ? column[row] : 0;
+      for (std::size_t a = 0; a < used; ++a)
+        sum += form[a][static_cast<Eigen::Index>(row % d)] * weights[a][row];
+      column[row] = sum;
     }
-  for (int l = 0; l < count; ++l)
-    for (int d = 0; d < Dim; ++d) {
-      Eigen::Map<Eigen::VectorXd> column(into(Dim * l + d), n);
-      const auto part = [&](std::size_t b) {
-        return w(b, l) * rows.col(Dim * static_cast<Eigen::Index>(b) + d);
-      };
-      bool moves = false;  // with the place on the master: not of a slave's node
-      for (std::size_t b = 1; b < terms.used; ++b) moves = moves || w(b, l) != 0.0;
-      if (!moves) {
-        column += part(0);
-        continue;
+  }
+};
+
+/// put(c, columns of the forms) for each column c of the tangent of a sample. `path`: derivatives
+/// of the trial by the last nodes of the block, where they are not terms of other nodes.
+template <int Dim, std::size_t used, class WeightOf, class Put>
+void for_each_column(const contact::PointTerms<Dim>& terms, int count, const WeightOf& w,
+                     std::span<const NodeMatrix<Dim>> path, const Put& put) {
+  using Four = Eigen::Array4d;
+  constexpr std::size_t driven = used > Dim ? Dim : 1;  // forms with a part s[a] of the trial
+  const auto padded = [](const Mat<Dim, Dim>& m, int c) {
+    Four v = Four::Zero();
+    v.head<Dim>() = m.col(c);
+    return v;
+  };
+  std::array<std::array<std::array<Four, Dim>, used>, used> m;
+  std::array<std::array<Four, Dim>, driven> s;
+  for (int c = 0; c < Dim; ++c) {
+    const auto at = static_cast<std::size_t>(c);
+    for (std::size_t a = 0; a < used; ++a)
+      for (std::size_t b = 0; b < used; ++b) m[a][b][at] = padded(terms.m[a][b], c);
+    if (!path.empty())
+      for (std::size_t a = 0; a < driven; ++a) s[a][at] = padded(terms.s[a], c);
+  }
+  const int first = count - static_cast<int>(path.size());
+  for (int l = 0; l < count; ++l) {
+    bool moves = false;  // with the place on the master: not of a slave's node
+    for (std::size_t b = 1; b < used; ++b) moves = moves || w(b, l) != 0.0;
+    for (int c = 0; c < Dim; ++c) {
+      const auto at = static_cast<std::size_t>(c);
+      std::array<Four, used> form;
+      for (std::size_t a = 0; a < used; ++a) form[a] = w(0, l) * m[a][0][at];
+      if (moves)
+        for (std::size_t b = 1; b < used; ++b)
+          for (std::size_t a = 0; a < used; ++a) form[a] += w(b, l) * m[a][b][at];
+      if (l >= first) {
+        const Mat<Dim, Dim>& g = path[static_cast<std::size_t>(l - first)].value;
+        for (std::size_t a = 0; a < driven; ++a)
+          for (int j = 0; j < Dim; ++j) form[a] += g(j, c) * s[a][static_cast<std::size_t>(j)];
       }
-      if constexpr (Dim == 3)
-        column += part(0) + part(1) + part(2);
-      else
-        column += part(0) + part(1);
-      for (std::size_t b = Dim; b < terms.used; ++b) column += part(b);
+      put(Dim * l + c, form);
     }
+  }
+}
+
+/// Calls `scatter` with the number of slots that the terms use.
+template <int Dim, class Scatter>
+void with_used_slots(const contact::PointTerms<Dim>& terms, const Scatter& scatter) {
+  if (terms.used == 1)
+    scatter(std::integral_constant<std::size_t, 1>{});
+  else if (terms.used == static_cast<std::size_t>(Dim))
+    scatter(std::integral_constant<std::size_t, static_cast<std::size_t>(Dim)>{});
+  else
+    scatter(std::integral_constant<std::size_t, contact::slots<Dim>>{});
 }
 
 /// Sets the first Dim * count rows and columns of `tangent`, or adds to them. Blocks of ties may
 /// have any number of nodes: their rows come in bands.
 ///
-/// Formula    K = sum_b rows_b w_b ,  rows_b = area sum_a w_a m[a][b]: column by column
+/// Formula    K_kl = sum_a w_a,k (sum_b area m[a][b] w_b,l + s[a] path_l)
 template <int Dim, class WeightOf>
 void scatter_tangent(const contact::PointTerms<Dim>& terms, int count, const WeightOf& w,
-                     double area, Eigen::MatrixXd& tangent, bool add = false) {
+                     double area, Eigen::MatrixXd& tangent, bool add = false,
+                     std::span<const NodeMatrix<Dim>> path = {}) {
   constexpr int band = max_slave_nodes<Dim> + 2 * max_master_nodes<Dim>;
-  if (!add) tangent.topLeftCorner(Dim * count, Dim * count).setZero();
-  for (int first = 0; first < count; first += band)
-    scatter_rows<Dim, band>(terms, {first, std::min(count, first + band)}, count, w, area,
-                            [&](int c) { return &tangent(Dim * first, c); });
+  with_used_slots(terms, [&](auto used) {
+    for (int first = 0; first < count; first += band) {
+      const TangentRows<Dim, used, band> rows({first, std::min(count, first + band)}, w, area);
+      for_each_column<Dim, used>(terms, count, w, path, [&](int c, const auto& form) {
+        rows.put(form, add, &tangent(Dim * first, c));
+      });
+    }
+  });
 }
 
-/// The same of a point on a smooth facet of the master, whose own nodes' part goes into the block
+/// The same of a point on a smooth facet of the master, whose own nodes' part is added to the block
 /// of that facet.
 template <int Dim, class WeightOf>
 void scatter_tangent(const contact::PointTerms<Dim>& terms, const WeightOf& w, double area,
-                     const ContactBlock<Dim>& block, Eigen::MatrixXd& tangent,
-                     Eigen::MatrixXd& of_facet) {
+                     const ContactBlock<Dim>& block, Eigen::MatrixXd& tangent, bool add,
+                     Eigen::MatrixXd& of_facet, std::span<const NodeMatrix<Dim>> path) {
   const int slave = block.slave_count, count = block.count;
-  scatter_rows<Dim, max_slave_nodes<Dim>>(terms, {0, slave}, count, w, area,
-                                          [&](int c) { return &tangent(0, c); });
-  scatter_rows<Dim, max_master_nodes<Dim>>(terms, {slave, count}, count, w, area, [&](int c) {
-    return c < Dim * slave ? &tangent(Dim * slave, c) : &of_facet(0, c - Dim * slave);
+  with_used_slots(terms, [&](auto used) {
+    const TangentRows<Dim, used, max_slave_nodes<Dim>> of_slave({0, slave}, w, area);
+    const TangentRows<Dim, used, max_master_nodes<Dim>> of_master({slave, count}, w, area);
+    for_each_column<Dim, used>(terms, count, w, path, [&](int c, const auto& form) {
+      of_slave.put(form, add, &tangent(0, c));
+      if (c < Dim * slave)
+        of_master.put(form, add, &tangent(Dim * slave, c));
+      else
+        of_master.put(form, true, &of_facet(0, c - Dim * slave));
+    });
   });
 }
 
@@ -124,8 +206,6 @@ void start_without_master(ContactBlock<Dim>& block) {
   const Eigen::Index slave = Dim * block.slave_count, rest = block.tangent.rows() - slave;
   if (!block.without_master) block.tangent.bottomRightCorner(rest, rest).setZero();
   block.without_master = true;  // nobody else writes there
-  block.tangent.topRows(slave).setZero();
-  block.tangent.leftCols(slave).setZero();
 }
 
 /// The block of the master's facet that `block` is on.
@@ -146,33 +226,16 @@ ContactBlock<Dim>& facet_block(const ContactBlock<Dim>& block, ContactBlock<Dim>
   return facet;
 }
 
-/// A path over the block's own master nodes, as that of a point which is on the facet of its
-/// history, goes into the tangent. With `of_facet` that takes the rows of the master's nodes.
+/// Whether the path is over the block's own master nodes, as that of a point which is on the facet
+/// of its history: then it belongs into the tangent.
 template <int Dim>
-void fold_path(ContactBlock<Dim>& block, Eigen::MatrixXd& tangent,
-               Eigen::MatrixXd* of_facet = nullptr) {
-  std::vector<NodeMatrix<Dim>>& path = block.behind.path;
+[[nodiscard]] bool path_is_own(const ContactBlock<Dim>& block) {
+  const std::vector<NodeMatrix<Dim>>& path = block.behind.path;
   const auto first = static_cast<std::size_t>(block.slave_count);
-  if (path.size() + first != static_cast<std::size_t>(block.count)) return;
+  if (path.size() + first != static_cast<std::size_t>(block.count)) return false;
   for (std::size_t k = 0; k < path.size(); ++k)
-    if (path[k].node != block.nodes[first + k]) return;
-  const Eigen::Index all = Dim * block.count, slave = Dim * block.slave_count;
-  const auto fold = [&](Eigen::Index from, Eigen::Index n, Eigen::MatrixXd& to, Eigen::Index row,
-                        Eigen::Index column) {
-    const auto rows = block.path_rows.middleRows(from, n);
-    for (const NodeMatrix<Dim>& g : path)
-      for (Eigen::Index d = 0; d < Dim; ++d) {
-        auto sum = to.col(column++).segment(row, n);
-        if constexpr (Dim == 3)
-          sum += g.value(0, d) * rows.col(0) + g.value(1, d) * rows.col(1) +
-                 g.value(2, d) * rows.col(2);
-        else
-          sum += g.value(0, d) * rows.col(0) + g.value(1, d) * rows.col(1);
-      }
-  };
-  fold(0, of_facet ? slave : all, tangent, 0, slave);
-  if (of_facet) fold(slave, all - slave, *of_facet, 0, 0);
-  path.clear();
+    if (path[k].node != block.nodes[first + k]) return false;
+  return true;
 }
 
 /// The block that holds the tangent of block i: the first one over the same nodes among those of

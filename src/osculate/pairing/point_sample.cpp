@@ -138,18 +138,21 @@ void set_block(const PairDefinition<Dim>& pair, const SurfaceSample<Dim>& point,
   ContactBlock<Dim>& holder = tangent_holder(i, out.blocks);
   block.elsewhere = &holder != &block;
   holder.reserve_tangent(out.block_nodes);
+  const bool own_path = path_is_own(block);
+  const std::span<const NodeMatrix<Dim>> path(block.path().data(),
+                                              own_path ? block.path().size() : 0);
   if (of_facet) {
     if (!block.elsewhere) start_without_master(block);
-    scatter_tangent<Dim>(terms, w, weight, block, holder.tangent,
-                         facet_block(block, *of_facet).tangent);
+    scatter_tangent<Dim>(terms, w, weight, block, holder.tangent, block.elsewhere,
+                         facet_block(block, *of_facet).tangent, path);
   } else {
     holder.without_master = false;
-    scatter_tangent<Dim>(terms, block.count, w, weight, holder.tangent, block.elsewhere);
+    scatter_tangent<Dim>(terms, block.count, w, weight, holder.tangent, block.elsewhere, path);
   }
-  if (!block.path().empty()) {
+  if (own_path)
+    block.behind.path.clear();
+  else if (!block.path().empty())
     scatter_path<Dim>(terms.s, w, weight, block);
-    fold_path(block, holder.tangent, of_facet ? &of_facet->tangent : nullptr);
-  }
   if (!pair.tangent.consistent || pair.weight != Weight::current_area || !point.slave) return;
   add_area_gradient<Dim>(pair, out, i, k.normal, block.area);
   scatter_forces<Dim>(terms.f, block.count, w, pass_factor(pair), block.area_rows);

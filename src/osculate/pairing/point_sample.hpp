@@ -50,14 +50,22 @@ template <int Dim>
   return !facet.shape && arm.norm() > near_distance(pair) && arm.dot(middle_normal(facet, x)) > 0;
 }
 
+/// Highest derivatives of the shape functions that forces and tangent of a pair's points have.
+template <int Dim>
+[[nodiscard]] int derivatives_needed(const PairDefinition<Dim>& pair, bool with_tangent) {
+  if (has_reentrant_vertices(pair)) return 3;
+  const bool full = pair.residual == contact::ResidualForm::full;
+  return with_tangent ? (full ? 3 : 1) : (full ? 1 : 0);
+}
+
 /// Closest point of slave point `i` on the master and the kinematics there; no place where none is
-/// found. `work` is refreshed at `x`.
+/// found. `work` is refreshed at `x`. `order` as in `projected_point`.
 template <int Dim>
 [[nodiscard]] ProjectedPoint<Dim> project_point(const PairDefinition<Dim>& pair,
                                                 const PairEvaluation<Dim>& work, Points<Dim> x,
                                                 std::size_t i,
                                                 const contact::PointHistory<Dim>& history,
-                                                Index kept = -1) {
+                                                Index kept = -1, int order = 3) {
   if (work.apart) return {};
   ProjectionQuery<Dim> query;
   query.point = position<Dim>(pair.slave.points[i], x);
@@ -68,6 +76,7 @@ template <int Dim>
   // The continuation is for points on the border of both sides.
   if (pair.slave.points[i].inside && is<MayPart>(pair.separation))
     query.beyond_open = border_tolerance;
+  query.patches = work.patches;
   NodeFilter<Dim> rules;
   if (pair.filter.limited()) {
     rules = node_filter<Dim>(pair.filter, pair.slave, work.filter, i, query.point);
@@ -86,7 +95,10 @@ template <int Dim>
   }
   const Projection<Dim> p = closest(pair.master, work.tree, x, query);
   if (p.feature == projection::Feature::none || pair.filter.hidden.has(i, p.facet)) return {};
-  return projected_point(pair.master, p, query.point, x);
+  if constexpr (Dim == 3)
+    return projected_point(pair.master, p, query.point, x, work.patches, order);
+  else
+    return projected_point(pair.master, p, query.point, x);
 }
 
 /// A point that is placed on a surface: a slave point on the master, or the origin on the surface

@@ -80,12 +80,21 @@ void project_on_edge(const SurfaceFacet& facet, const cell::FacetShape& shape, c
 }  // namespace
 
 ProjectedPoint<3> projected_point(const FacetSurface& master, const Projection<3>& p,
-                                  const Vec3& point, std::span<const Vec3> x) {
+                                  const Vec3& point, std::span<const Vec3> x, PatchPoints patches,
+                                  int order) {
   ProjectedPoint<3> projected;
   projected.projection = p;
+  projected.patches = patches;
   const SurfaceFacet& facet = master.facets[static_cast<std::size_t>(p.facet)];
-  const cell::FacetShape shape = facet_shape(facet, p.xi);
-  const geometry::SurfaceJet jet = facet_jet(facet, shape, x);
+  const bool by_points = facet.patch && p.feature == Feature::face && order < 3;
+  const cell::FacetShape shape = facet_shape(facet, p.xi, by_points ? order : 3);
+  geometry::SurfaceJet jet;
+  if (by_points) {
+    GregoryPoints room;
+    jet = patch_jet(facet.type, points_of(master, facet, x, patches, room), p.xi);
+  } else {
+    jet = facet_jet(facet, shape, x);
+  }
   projected.foot = jet.r;
   projected.count = facet.count;
   projected.shape[0] = shape.n[0];

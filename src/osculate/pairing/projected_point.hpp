@@ -20,15 +20,20 @@ struct ProjectedPoint {
   /// Shape values of the facet at the foot point by slot: values, first and second derivatives
   /// with respect to the coordinates that move (an edge: along it; a vertex: none).
   std::array<std::array<double, max_master_nodes<Dim>>, contact::slots<Dim>> shape{};
+  PatchPoints patches{};  ///< of the master
 };
 
 /// Kinematics and weights of a projection.
+///
+/// `order`: highest derivative of the shape functions that is asked for (3: those of the curvature
+/// too); inside a smooth patch there are no others, nor third derivatives of its place below 3.
 ///
 /// Requires   p.feature is not none
 /// Tested by  tests/unit/pairing/test_pair_tangent.cpp, test_pair3_tangent.cpp
 [[nodiscard]] ProjectedPoint<2> projected_point(const Chain& master, const Projection<2>& p,
                                                 const Vec2& point, std::span<const Vec2> x);
 [[nodiscard]] ProjectedPoint<3> projected_point(const FacetSurface& master, const Projection<3>& p,
-                                                const Vec3& point, std::span<const Vec3> x);
+                                                const Vec3& point, std::span<const Vec3> x,
+                                                PatchPoints patches = {}, int order = 3);
 
 }  // namespace osculate::pairing

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "osculate/core/types.hpp"
+#include "osculate/pairing/gregory.hpp"
 #include "osculate/projection/feature.hpp"
 #include "osculate/search/bvh.hpp"
 
@@ -40,7 +41,8 @@ struct ProjectionQuery {
   Index kept = -1;
   double beyond_open = end_extension;  ///< how far an open border is continued for this point
   const NodeFilter<Dim>* filter =
-      nullptr;  ///< null: every facet is a candidate (candidate filter.hpp)
+      nullptr;            ///< null: every facet is a candidate (candidate filter.hpp)
+  PatchPoints patches{};  ///< of the master
   /// An equidistant point has no side of its own: it belongs to the border between both facets.
   [[nodiscard]] bool shares() const {
     return history < 0 || history_feature == projection::Feature::edge ||

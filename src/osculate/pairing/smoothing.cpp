@@ -90,6 +90,27 @@ void merge_ring(Facet& facet, BezierWeights& bezier) {
   facet.count = 3;
 }
 
+/// Powers from the control points, as Taylor coefficients in the middle.
+///
+/// Formula    power_d = C(n, d) / 2^n sum_j C(n - d, j) (difference of order d of the weights)_j
+void set_powers(BezierWeights& bezier) {
+  const std::size_t n = bezier.degree;
+  auto w = bezier.weight;
+  double ahead = std::ldexp(1.0, -static_cast<int>(n));  // C(n, d) / 2^n
+  for (std::size_t d = 0; d <= n; ++d) {
+    for (std::size_t k = 0; k < smooth_line_nodes; ++k) {
+      double binomial = 1, sum = 0;  // C(n - d, j)
+      for (std::size_t j = 0; j <= n - d; ++j) {
+        sum += binomial * w[k][j];
+        binomial *= static_cast<double>(n - d - j) / static_cast<double>(j + 1);
+      }
+      bezier.power[d][static_cast<Eigen::Index>(k)] = ahead * sum;
+      for (std::size_t j = 0; j + d < n; ++j) w[k][j] = w[k][j + 1] - w[k][j];
+    }
+    ahead *= static_cast<double>(n - d) / static_cast<double>(d + 1);
+  }
+}
+
 Facet smoothed(const Chain& chain, const Facet& facet, const Neighbours& at,
                std::span<const Vec2> x, SmoothingKind kind) {
   const double h = span_of(facet, x).norm();
@@ -118,43 +139,30 @@ Facet smoothed(const Chain& chain, const Facet& facet, const Neighbours& at,
   if (at.after < 0) ends[1] = continued(ends[0], h);
   BezierWeights bezier = bezier_of(ends, h, kind);
   merge_ring(out, bezier);
+  set_powers(bezier);
   out.bezier = std::make_shared<const BezierWeights>(bezier);
   return out;
-}
-
-/// Values of all Bernstein polynomials of a degree.
-std::array<double, most_control_points> bernstein(std::size_t degree, double u) {
-  std::array<double, most_control_points> b{};
-  b[0] = 1;
-  for (std::size_t n = 1; n <= degree; ++n) {
-    b[n] = u * b[n - 1];
-    for (std::size_t j = n - 1; j > 0; --j) b[j] = (1 - u) * b[j] + u * b[j - 1];
-    b[0] *= 1 - u;
-  }
-  return b;
 }
 
 }  // namespace
 
 cell::LineShape bezier_shape(const BezierWeights& bezier, int count, double xi) {
+  using Four = Eigen::Array4d;
+  const std::array<Four, 4> t =
+      taylor_at(std::span<const Four>(bezier.power).first(bezier.degree + 1), xi);
+  constexpr std::array<double, 4> factorial{1, 1, 2, 6};
   cell::LineShape shape;
   shape.count = count;
-  const double u = 0.5 * (1 + xi);
-  double factor = 1;  // n (n - 1) .. times d(u)/d(xi) for each derivative
-  for (std::size_t order = 0; order <= 3; ++order) {
-    const std::size_t degree = bezier.degree - order;
-    const std::array<double, most_control_points> b = bernstein(degree, u);
-    for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
-      std::array<double, most_control_points> w = bezier.weight[k];
-      for (std::size_t d = 0; d < order; ++d)
-        for (std::size_t j = 0; j < bezier.degree - d; ++j) w[j] = w[j + 1] - w[j];
-      double sum = 0;
-      for (std::size_t j = 0; j <= degree; ++j) sum += w[j] * b[j];
-      shape.n[order][k] = factor * sum;
-    }
-    factor *= 0.5 * static_cast<double>(degree);
-  }
+  for (std::size_t order = 0; order < t.size(); ++order)
+    Eigen::Map<Four>(shape.n[order].data()) = factorial[order] * t[order];
   return shape;
+}
+
+Eigen::Array4d bezier_slopes(const BezierWeights& bezier, double xi) {
+  Eigen::Array4d sum = Eigen::Array4d::Zero();
+  for (std::size_t d = bezier.degree; d > 0; --d)
+    sum = xi * sum + static_cast<double>(d) * bezier.power[d];
+  return sum;
 }
 
 void smooth(Chain& chain, std::span<const Vec2> reference, const Smoothing& options) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <Eigen/Core>
 #include <array>
 #include <numbers>
 #include <span>
@@ -31,14 +32,30 @@ inline constexpr std::size_t most_control_points = 6;
 /// one too: no contact formula knows the difference to a Lagrange line.
 ///
 /// Formula    rho = sum_k N_k x_k ,  N_k = sum_j weight[k][j] B_j((1 + xi)/2) with the Bernstein
-///            polynomials B_j
+///            polynomials B_j ;  N_k = sum_d power[d][k] xi^d, by which it is evaluated
 struct BezierWeights {
   std::size_t degree = 3;
   std::array<std::array<double, most_control_points>, smooth_line_nodes> weight{};
+  std::array<Eigen::Array4d, most_control_points> power{};  ///< four nodes at a time
 };
+
+/// Value, slope and two more Taylor coefficients at xi of the polynomial sum_d power[d] xi^d.
+template <class Value>
+[[nodiscard]] std::array<Value, 4> taylor_at(std::span<const Value> power, double xi) {
+  std::array<Value, 4> t;
+  t.fill(0.0 * power.back());
+  t[0] = power.back();
+  for (std::size_t d = power.size() - 1; d-- > 0;) {
+    for (std::size_t k = t.size() - 1; k > 0; --k) t[k] = xi * t[k] + t[k - 1];
+    t[0] = xi * t[0] + power[d];
+  }
+  return t;
+}
 
 /// Shape functions of the first `count` nodes.
 [[nodiscard]] cell::LineShape bezier_shape(const BezierWeights& bezier, int count, double xi);
+/// First derivatives of the shape functions alone.
+[[nodiscard]] Eigen::Array4d bezier_slopes(const BezierWeights& bezier, double xi);
 
 /// Replaces the straight facets of `chain` (connected) by smooth ones through the same nodes.
 ///

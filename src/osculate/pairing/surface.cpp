@@ -129,6 +129,35 @@ geometry::SurfaceJet facet_jet(const SurfaceFacet& facet, const cell::FacetShape
   return jet;
 }
 
+GregoryPoints patch_points(const SurfaceFacet& facet, std::span<const Vec3> x) {
+  GregoryPoints points;
+  points.fill(Eigen::Array4d::Zero());
+  for (std::size_t k = 0; k < static_cast<std::size_t>(facet.count); ++k) {
+    const Vec3& at = x[static_cast<std::size_t>(facet.nodes[k])];
+    const Eigen::Array4d node(at.x(), at.y(), at.z(), 0);
+    for (std::size_t j = 0; j < gregory_points; ++j) points[j] += facet.patch->weight[j][k] * node;
+  }
+  return points;
+}
+
+const GregoryPoints& points_of(const FacetSurface& surface, const SurfaceFacet& facet,
+                               std::span<const Vec3> x, PatchPoints patches, GregoryPoints& room) {
+  const auto number = static_cast<std::size_t>(&facet - surface.facets.data());
+  if (number < patches.size()) return patches[number];
+  room = patch_points(facet, x);
+  return room;
+}
+
+geometry::SurfaceJet patch_jet(cell::CellType type, const GregoryPoints& points, const Vec2& xi) {
+  const GregoryJet jet = gregory_jet(cell::is_triangle(type), points, xi);
+  const auto r = [&](std::size_t d) -> Vec3 { return jet[d].head<3>(); };
+  geometry::SurfaceJet out;
+  out.r = r(0);
+  out.r1 = {r(1), r(2)};
+  out.r2 = {r(3), r(4), r(5)};
+  return out;
+}
+
 Vec3 facet_point(const SurfaceFacet& facet, const Vec2& xi, std::span<const Vec3> x) {
   const auto node = [&](std::size_t k) -> const Vec3& {
     return x[static_cast<std::size_t>(facet.nodes[k])];
@@ -141,6 +170,16 @@ Vec3 facet_point(const SurfaceFacet& facet, const Vec2& xi, std::span<const Vec3
     point += shape.n[0][k] * node(k);
   return point;
 }
+
+namespace {
+
+Vec3 normal_of_plane(const Vec3& r1, const Vec3& r2) {
+  const Vec3 normal = r1.cross(r2);
+  const double size = normal.norm();
+  return size > 0 ? Vec3(normal / size) : Vec3(Vec3::Zero());
+}
+
+}  // namespace
 
 Vec3 facet_normal(const SurfaceFacet& facet, const Vec2& xi, std::span<const Vec3> x) {
   const auto node = [&](std::size_t k) -> const Vec3& {
@@ -158,9 +197,16 @@ Vec3 facet_normal(const SurfaceFacet& facet, const Vec2& xi, std::span<const Vec
       r2 += shape.n[2][k] * node(k);
     }
   }
-  const Vec3 normal = r1.cross(r2);
-  const double size = normal.norm();
-  return size > 0 ? Vec3(normal / size) : Vec3(Vec3::Zero());
+  return normal_of_plane(r1, r2);
+}
+
+Vec3 facet_normal(const FacetSurface& surface, const SurfaceFacet& facet, const Vec2& xi,
+                  std::span<const Vec3> x, PatchPoints patches) {
+  if (!facet.patch) return facet_normal(facet, xi, x);
+  GregoryPoints room;
+  const geometry::SurfaceJet jet =
+      patch_jet(facet.type, points_of(surface, facet, x, patches, room), xi);
+  return normal_of_plane(jet.r1[0], jet.r1[1]);
 }
 
 }  // namespace osculate::pairing

@@ -49,6 +49,8 @@ void connect(FacetSurface& surface);
 /// Both corners of edge k (local numbers).
 [[nodiscard]] std::array<int, 2> edge_corners(const SurfaceFacet& facet, int edge);
 
+/// Control points of a patch in configuration `x`.
+[[nodiscard]] GregoryPoints patch_points(const SurfaceFacet& facet, std::span<const Vec3> x);
 /// `order`: highest derivative that is asked for; those above may be filled in, or 0.
 [[nodiscard]] cell::FacetShape facet_shape(const SurfaceFacet& facet, const Vec2& xi,
                                            int order = 3);
@@ -63,9 +65,18 @@ void connect(FacetSurface& surface);
 [[nodiscard]] inline bool is_plain(const SurfaceFacet& facet) {
   return !facet.shape && !facet.patch && facet.difference[0] == 0;
 }
+/// The facet's control points: in `patches`, or made in `room`.
+[[nodiscard]] const GregoryPoints& points_of(const FacetSurface& surface, const SurfaceFacet& facet,
+                                             std::span<const Vec3> x, PatchPoints patches,
+                                             GregoryPoints& room);
+/// The same as `facet_jet` but for third derivatives, of a smooth patch.
+[[nodiscard]] geometry::SurfaceJet patch_jet(cell::CellType type, const GregoryPoints& points,
+                                             const Vec2& xi);
 /// Its place at xi without derivatives, `facet_jet(...).r`.
 [[nodiscard]] Vec3 facet_point(const SurfaceFacet& facet, const Vec2& xi, std::span<const Vec3> x);
 /// Unit normal; zero where the facet has none.
 [[nodiscard]] Vec3 facet_normal(const SurfaceFacet& facet, const Vec2& xi, std::span<const Vec3> x);
+[[nodiscard]] Vec3 facet_normal(const FacetSurface& surface, const SurfaceFacet& facet,
+                                const Vec2& xi, std::span<const Vec3> x, PatchPoints patches);
 
 }  // namespace osculate::pairing

@@ -49,7 +49,8 @@ double curvature_share(const PairDefinition<Dim>& pair, Points<Dim> x,
   for (std::size_t i = 0; i < pair.slave.points.size(); ++i) {  // not the edge-edge contacts
     if (evaluation.points[i].status == contact::Status::open) continue;
     const contact::PointHistory<Dim>& history = evaluation.points[i].history;
-    const ProjectedPoint<Dim> projected = project_point<Dim>(pair, evaluation, x, i, history);
+    const ProjectedPoint<Dim> projected =
+        project_point<Dim>(pair, evaluation, x, i, history, -1, 1);
     if (projected.projection.feature == projection::Feature::none) continue;
     largest = std::max(
         largest, share_at(pair, i, evaluation.points[i], projected, evaluation.stiffening, parts));
