@@ -28,8 +28,8 @@ class FacetCutter {
   /// The master's analytic facets cut nothing. All arguments are referred to, not copied.
   FacetCutter(const Boundary<Dim>& slave, const Boundary<Dim>& master,
               std::type_identity_t<std::span<const Vec<Dim>>> x);
-  /// The parts cover the cell (parts narrower than a ten-thousandth of it are left out); none where no
-  /// edge crosses it, or where several layers of the master lie over each other.
+  /// The parts cover the cell (parts narrower than a ten-thousandth of it are left out); none where
+  /// no edge crosses it, or where several layers of the master lie over each other.
   [[nodiscard]] std::vector<CellPart<Dim>> parts(Index facet) const;
 
  private:
