@@ -45,7 +45,6 @@ BasicSystem<Dim>::Impl::Motion::Motion(Impl& whole)
 
 template <int Dim>
 void BasicSystem<Dim>::Impl::Motion::measure_damping(const State& committed) {
-  dampers = system.springs.dampers(committed, system.positions(committed.u));
   const double factor = settings.damping_stiffness;
   if (!(factor > 0)) return;
   const bool first = damping.empty();
@@ -61,6 +60,16 @@ void BasicSystem<Dim>::Impl::Motion::measure_damping(const State& committed) {
     else
       damping[c] = factor * block.result.tangent;
   }
+}
+
+/// Dampers that turn act along the lines that they will have at the end of the increment, as far as
+/// rates tell: to h^3, so that their forces are of the scheme's order in time, and need no tangent.
+template <int Dim>
+void BasicSystem<Dim>::Impl::Motion::place_dampers(const State& committed) {
+  const Eigen::Index n = committed.u.size();
+  const Eigen::VectorXd u =
+      committed.u + h * past.velocity.head(n) + 0.5 * h * h * past.acceleration.head(n);
+  dampers = system.springs.dampers(committed, system.positions(u));
 }
 
 template <int Dim>
@@ -89,6 +98,7 @@ void BasicSystem<Dim>::Impl::Motion::begin_increment(const State& committed, dou
   mass_x = system.positions(
       committed.u);  // a step of another length may have been committed and dropped
   mass_rigid = committed.rigid;
+  place_dampers(committed);
   move_past_to_bodies();
   correct_damping();
   if (m.settings.scheme.impact != solve::Impact::average && !m.mass_known) factor_mass();
@@ -294,6 +304,7 @@ Rates BasicSystem<Dim>::Impl::Motion::begin_rates(const State& committed) {
   rates.external = last.forces.external;
   rates.contact = last.forces.contact;
   measure_damping(committed);
+  dampers = system.springs.dampers(committed, system.positions(committed.u));
   rates.damping = damping_of(rates.velocity);
   if constexpr (Dim == 3) damp_spins(rates.velocity, rates.damping);
   Eigen::VectorXd force = rates.external - rates.internal - rates.damping;

@@ -49,6 +49,7 @@ struct BasicSystem<Dim>::Impl::Motion {
 
   // system_dynamics.cpp
   void measure_damping(const State& committed);
+  void place_dampers(const State& committed);
   void begin_increment(const State& committed, double fraction, double duration);
   void add_inertia(const State& trial, Assembly<Dim>& to);
   /// Rotations of rigid bodies in space, in system_spins.cpp.

@@ -123,6 +123,30 @@ TEST(Springs, DampedOscillator) {
   EXPECT_LT(fine, 2e-4 * start);
 }
 
+/// A mass flies past a fixed point to which a damper joins it, whose line turns by 45 degrees:
+/// second order in the time step.
+TEST(Springs, DamperThatTurns) {
+  const auto place = [](int increments) {
+    const Outcome r =
+        run("osculate: 1\n"
+            "mesh: {generate: {a: {box: {x: [0, 1], y: [0, 1], elements: [1, 1]}}, "
+            "b: {box: {x: [3, 4], y: [1, 2], elements: [1, 1]}}}}\n"
+            "materials: {m: {linear_elastic: {E: 1, nu: 0, density: 1e-12}}}\n"
+            "sections: [{on: a, material: m, element: plane_strain}, "
+            "{on: b, material: m, element: plane_strain}]\n"
+            "springs: [{between: [a.top_right, b.bottom_left], damping: 3, kinematics: finite}]\n"
+            "masses: [{on: b.bottom_left, mass: 2}]\n"
+            "equal: [{on: b, of: ux}, {on: b, of: uy}]\n"
+            "initial_velocity: [{on: b, vy: 2}]\n"
+            "steps: [{name: fly, duration: 1, increments: " +
+            std::to_string(increments) + ", dynamics: {}, prescribe: [{on: a, ux: 0, uy: 0}]}]\n");
+    return Vec2(mean(r, "b", 0), mean(r, "b", 1));
+  };
+  const Vec2 coarse = place(50), middle = place(100), fine = place(200);
+  EXPECT_LT(fine.x(), -0.2);  // it is held back along the line
+  EXPECT_NEAR(std::log2((coarse - middle).norm() / (middle - fine).norm()), 2, 0.05);
+}
+
 /// omega^2 = k / m, about the last state of a spring that stiffens and about its first one.
 TEST(Springs, VibrationsAboutTheLastStateAndTheFirst) {
   const auto omega_squared = [](const std::string& modes) {
