@@ -42,7 +42,8 @@ std::optional<Vec3> third_axis(SourceNode& axes) {
 }
 
 /// Axes of a shell's material are those of a solid only where the third one is the normal.
-void require_flat(const InpModel& m, const Line& line, const std::string& set, const Vec3& axis) {
+void require_flat(const InpModel& m, io::inp::Place place, const std::string& set,
+                  const Vec3& axis) {
   const mesh::Mesh& mesh = m.mesh.mesh;
   for (const mesh::CellRef& ref : mesh.find_set(set)->cells) {
     const Index* const nodes = mesh.blocks[static_cast<std::size_t>(ref.block)].cell(ref.cell);
@@ -50,15 +51,39 @@ void require_flat(const InpModel& m, const Line& line, const std::string& set, c
     const Vec3 normal = (at(1) - at(0)).cross(Vec3(at(2) - at(0))).normalized();
     constexpr double same = 1 - 1e-6;
     if (!(normal.dot(axis) > same))
-      io::inp::fail(m.deck, line.at,
-                    fmt::format("layers that are not isotropic need an *ORIENTATION, SYSTEM="
+      io::inp::fail(m.deck, place,
+                    fmt::format("shells that are not isotropic need an *ORIENTATION, SYSTEM="
                                 "RECTANGULAR whose third axis is the normal of their elements; "
                                 "element {} has another",
                                 mesh::cell_number(mesh, ref)));
   }
 }
 
+/// Bending of a layer of C3D8R is held by hourglass control alone, whose size is that of a modulus.
+void refuse_hourglass(const InpModel& m, const Card& card, SourceNode& section) {
+  const mesh::Mesh& mesh = m.mesh.mesh;
+  if (find(section, "formulation")->text != "reduced") return;
+  for (const mesh::CellRef& ref : mesh.find_set(find(section, "on")->text)->cells)
+    if (mesh.blocks[static_cast<std::size_t>(ref.block)].type == cell::CellType::hex8)
+      io::inp::fail(
+          m.deck, card,
+          "S4R of a material that is not isotropic is not supported: its bending would be "
+          "wrong by far; use S4, S8 or S8R");
+}
+
 }  // namespace
+
+void put_shell_axes(const InpModel& m, const Card& card, io::inp::Place place,
+                    const std::string& orientation, SourceNode& section) {
+  refuse_hourglass(m, card, section);
+  std::optional<Vec3> axis = Vec3::UnitZ();
+  if (!orientation.empty()) {
+    SourceNode axes = inp_orientation(m, card, orientation);
+    axis = third_axis(axes);
+    put(section, "orientation", std::move(axes));
+  }
+  require_flat(m, place, find(section, "on")->text, axis.value_or(Vec3::Zero()));
+}
 
 void put_layers(InpModel& m, const Card& card, SourceNode& sections) {
   const std::string& elements = value_of(m, card, "ELSET");
@@ -80,14 +105,8 @@ void put_layers(InpModel& m, const Card& card, SourceNode& sections) {
     put(section, "element", inp_text("solid", at));
     put(section, "kinematics", inp_text(m.finite ? "finite" : "small", at));
     put(section, "formulation", inp_text(std::string(parts[0].formulation), at));
-    if (!has_axes(m, io::inp::capitals(material))) continue;
-    std::optional<Vec3> axis = Vec3::UnitZ();
-    if (!orientation.empty()) {
-      SourceNode axes = inp_orientation(m, card, io::inp::capitals(orientation));
-      axis = third_axis(axes);
-      put(section, "orientation", std::move(axes));
-    }
-    require_flat(m, line, parts[0].set, axis.value_or(Vec3::Zero()));
+    if (has_axes(m, io::inp::capitals(material)))
+      put_shell_axes(m, card, line.at, io::inp::capitals(orientation), section);
   }
 }
 

@@ -344,18 +344,17 @@ MaterialCards material_of(const InpModel& m, const Card& section) {
   return {};
 }
 
-/// Whether a section has axes that its material needs. Shells and beams have none here.
-bool is_oriented(const InpModel& m, const Card& section) {
+/// Whether a section's material needs axes. Those of beams have none here.
+bool needs_axes(const InpModel& m, const Card& section) {
   const MaterialCards material = material_of(m, section);
   const Card* const elastic = material.elastic;
   if (material.user && !option_of(section, "ORIENTATION").empty())
     io::inp::fail(m.deck, section, "a *USER MATERIAL in axes of its own is not supported");
   const bool directional = (elastic && is_directional(*elastic)) ||
                            (material.expansion && expands_by_directions(*material.expansion));
-  if (directional && io::inp::is_thin_section(section))
-    io::inp::fail(m.deck, section,
-                  "shells and beams of a material that is not isotropic are not supported");
-  return directional && !option_of(section, "ORIENTATION").empty();
+  if (directional && section.keyword == "BEAMSECTION")
+    io::inp::fail(m.deck, section, "beams of a material that is not isotropic are not supported");
+  return directional;
 }
 
 /// Results that the deck wants in the axes of a section's material.
@@ -386,7 +385,8 @@ SourceNode inp_sections(InpModel& m) {
       put_layers(m, card, sections);
       continue;
     }
-    const bool oriented = is_oriented(m, card);
+    const bool directional = needs_axes(m, card);
+    const std::string orientation = option_of(card, "ORIENTATION");
     for (const InpElements& part : elements_of(m, card)) {
       SourceNode& section = sections.items.emplace_back(inp_map(line));
       put(section, "on", inp_text(part.set, line));
@@ -394,7 +394,10 @@ SourceNode inp_sections(InpModel& m) {
       put(section, "element", inp_text(std::string(part.element), line));
       put(section, "kinematics", inp_text(m.finite ? "finite" : "small", line));
       put(section, "formulation", inp_text(std::string(part.formulation), line));
-      if (oriented) put(section, "orientation", inp_orientation(m, card));
+      if (directional && io::inp::is_thin_section(card))
+        put_shell_axes(m, card, card.at, orientation, section);
+      else if (directional && !orientation.empty())
+        put(section, "orientation", inp_orientation(m, card));
       const auto lines = io::inp::lines_of(m.deck, card);
       if (lines.empty() || part.element == "solid" || part.element == "axisymmetric") continue;
       const double thickness = Fields(m.deck, lines[0]).real_or_zero("the thickness");

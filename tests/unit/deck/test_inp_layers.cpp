@@ -7,6 +7,7 @@
 
 #include "inp_run_test.hpp"
 #include "osculate/core/error.hpp"
+#include "osculate/deck/inp_translate.hpp"
 
 namespace osculate::deck {
 namespace {
@@ -121,6 +122,27 @@ TEST(InpLayers, PliesHaveTheirAxes) {
   }
 }
 
+/// A shell of one material as its single layer would be.
+std::string alone(std::string deck, const std::string& axes) {
+  const std::string composite = "*SHELL SECTION, COMPOSITE, ELSET=E";
+  const std::string section = "*SHELL SECTION, MATERIAL=PLY, ELSET=E";
+  deck.replace(deck.find(composite), composite.size(),
+               section + (axes.empty() ? "" : ", ORIENTATION=" + axes));
+  return deck;
+}
+
+TEST(InpLayers, WithoutLayersTheMaterialHasItsAxes) {
+  for (const char* const axes : {"ALONG", "ACROSS"}) {
+    const DeckRun bent =
+        run_deck(alone(strip(strip_count, "\n0.3\n"), axes) + pulled(strip_count, 3, 0.1));
+    const double modulus = axes == std::string("ALONG") ? 2e5 : 1e4;
+    const Laminate l = laminate({{0.3, modulus}});
+    const double sunk = strip_bent(0.1, l.d) +
+                        0.1 * strip_x * shear_compliance({modulus, modulus, modulus}, l.d, 5e3);
+    EXPECT_NEAR(bent.displacement(strip_node).z(), sunk, 2e-3 * sunk) << axes;
+  }
+}
+
 TEST(InpLayers, EachHasItsSection) {
   const DeckRun run = run_deck(strip(2, ", OFFSET=0.5\n0.1, , SOFT\n0.3, , HARD\n") +
                                "*STEP\n*STATIC\n*DLOAD\nE, P, 1.\n*END STEP\n");
@@ -156,6 +178,21 @@ TEST(InpLayers, WhatIsWrongIsSaid) {
               HasSubstr("whose third axis is the normal of their elements"));
   EXPECT_THAT(message("\n0.1, , PLY, NONE\n"), HasSubstr("ORIENTATION"));
   EXPECT_THAT(message("\n0.1, , GLUE\n"), HasSubstr("GLUE"));
+  const auto refusal = [](const std::string& deck) {
+    try {
+      (void)translate_deck(deck, "a.inp");
+    } catch (const core::InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  EXPECT_THAT(refusal(alone(strip(1, "\n0.3\n") + pulled(1, 1, 1), "UP")),
+              HasSubstr("whose third axis is the normal of their elements"));
+  EXPECT_THAT(refusal("*NODE\n1, 0, 0\n2, 1, 0\n3, 1, 1\n4, 0, 1\n*ELEMENT, TYPE=S4R, ELSET=E\n"
+                      "1, 1, 2, 3, 4\n*MATERIAL, NAME=M\n*ELASTIC, TYPE=ENGINEERING CONSTANTS\n"
+                      "2.E5, 1.E4, 1.E4, 0., 0., 0., 5.E3, 5.E3\n5.E3,\n*SHELL SECTION, ELSET=E, "
+                      "MATERIAL=M\n0.1\n*BOUNDARY\n1, 1, 3\n*STEP\n*STATIC\n*END STEP\n"),
+              HasSubstr("S4R of a material that is not isotropic is not supported"));
 }
 
 }  // namespace
