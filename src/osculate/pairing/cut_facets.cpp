@@ -97,9 +97,9 @@ struct FacetPlane {
 
 bool is_convex(const Flat& p) {
   for (std::size_t k = 0; k < p.count; ++k)
-    if (cross(p.corners[(k + 1) % p.count] - p.corners[k],
-              p.corners[(k + 2) % p.count] - p.corners[(k + 1) % p.count]) <= 0)
-      return false;
+    if (!(cross(p.corners[(k + 1) % p.count] - p.corners[k],
+                p.corners[(k + 2) % p.count] - p.corners[(k + 1) % p.count]) > 0))
+      return false;  // also where it has no area
   return p.count > 2;
 }
 

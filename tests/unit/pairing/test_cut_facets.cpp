@@ -138,6 +138,18 @@ TEST(CutFacets, NothingIsCutWithoutAnEdgeAcrossOrByLayers) {
   EXPECT_TRUE(far.parts().empty());
 }
 
+TEST(CutFacets, FacetsWithoutAreaOrBentInwardsAreNotCut) {
+  const std::vector<std::vector<Vec2>> halves{box(-1, -1, 1, 3), box(1, -1, 3, 3)};
+  EXPECT_EQ(Squares(halves).parts().size(), 2u);
+  for (const auto& corners : {std::vector<Vec3>{{0, 0, 0}, {0, 2, 0}, {0, 2, 0}, {0, 0, 0}},
+                              std::vector<Vec3>{{0, 0, 0}, {0, 2, 0}, {2, 2, 0}, {2, 2, 0}},
+                              std::vector<Vec3>{{0, 0, 0}, {0, 2, 0}, {2, 2, 0}, {0.5, 1.5, 0}}}) {
+    Squares pair(halves);
+    for (std::size_t k = 0; k < 4; ++k) pair.x[k] = corners[k];
+    EXPECT_TRUE(pair.parts().empty());
+  }
+}
+
 /// A function that bends where the master's facets meet is integrated exactly, also turned.
 TEST(CutFacets, KinksOverEdgesAreIntegratedExactly) {
   const std::vector<std::vector<Vec2>> halves{{{-1, -1}, {1.4, -1}, {0.2, 3}, {-1, 3}},
