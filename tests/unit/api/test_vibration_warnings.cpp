@@ -117,6 +117,22 @@ TEST(VibrationWarnings, AStrutUnderMoreThanItsCriticalLoadIsUnstable) {
   EXPECT_THAT(under("6"), ElementsAre(HasSubstr("'v': the state is unstable: omega^2 < 0")));
 }
 
+// The same strut, straight, at the end of a step that knows its way: of large rotations.
+TEST(VibrationWarnings, AStepThatEndsAboveTheCriticalLoadSaysSo) {
+  const auto under = [](const char* force) {
+    return warnings_of(strip("finite", fmt::format("  - {{name: press, increments: 2, prescribe: "
+                                                   "[{{on: b.left, ux: 0, uy: 0}}], total_force: "
+                                                   "[{{on: b.right, fx: -{}}}]}}\n",
+                                                   force)));
+  };
+  EXPECT_THAT(under("4.25"), IsEmpty());
+  EXPECT_THAT(under("4.40"),
+              ElementsAre(HasSubstr("step 'press' ends in an unstable equilibrium: the least "
+                                    "disturbance makes the bodies leave it in one way")));
+  // the second load of Euler's is nine times the first
+  EXPECT_THAT(under("42"), ElementsAre(HasSubstr("leave it in 2 ways")));
+}
+
 // A long soft strip is no mechanism: its slowest vibration has 1e-14 of the fastest one's omega^2.
 TEST(VibrationWarnings, ASoftBodyIsNoRigidOne) {
   const std::string text =
