@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "osculate/pairing/candidate_tree.hpp"
+#include "osculate/pairing/closest.hpp"
 #include "osculate/pairing/mortar_clip.hpp"
 
 namespace osculate::pairing {
@@ -198,9 +199,7 @@ FacetCutter<Dim>::FacetCutter(const Boundary<Dim>& slave, const Boundary<Dim>& m
                               std::type_identity_t<std::span<const Vec<Dim>>> x)
     : slave_(slave), master_(master), x_(x) {
   std::vector<search::Box<Dim>> boxes;
-  for (const auto& facet : master.facets)
-    boxes.push_back(facet.shape ? search::Box<Dim>{}
-                                : box_of<Dim>(corners_of<Dim>(corner_nodes(facet), x)));
+  facet_boxes(master, x, boxes);
   tree_ = Tree<Dim>(boxes);
 }
 
@@ -213,11 +212,12 @@ std::vector<CellPart<2>> FacetCutter<2>::parts(Index facet) const {
   search::Box<2> box = box_of<2>(ends);
   box.inflate(way.norm());
   tree_.for_each_overlap(box, [&](Index m) {
-    const std::vector<Vec2> other =
-        corners_of<2>(corner_nodes(master_.facets[static_cast<std::size_t>(m)]), x_);
-    if (turn((other[1] - other[0]).normalized()).dot(normal) > facing_cosine) return;
-    if (out_of_reach<2>(other, ends[0], normal, way.norm())) return;
-    for (const Vec2& end : other) cuts.add(end);
+    const Facet& other = master_.facets[static_cast<std::size_t>(m)];
+    if (other.shape) return;
+    const std::vector<Vec2> theirs = corners_of<2>(corner_nodes(other), x_);
+    if (turn((theirs[1] - theirs[0]).normalized()).dot(normal) > facing_cosine) return;
+    if (out_of_reach<2>(theirs, ends[0], normal, way.norm())) return;
+    for (const Vec2& end : theirs) cuts.add(end);
   });
   return cuts.parts();
 }
@@ -237,6 +237,7 @@ std::vector<CellPart<3>> FacetCutter<3>::parts(Index facet) const {
   std::vector<Flat> others;
   for (const Index m : near) {
     const SurfaceFacet& other = master_.facets[static_cast<std::size_t>(m)];
+    if (other.shape) continue;
     const std::vector<Vec3> theirs = corners_of<3>(corner_nodes(other), x_);
     if (middle_normal(other, x_).dot(plane.normal) > facing_cosine) continue;
     if (out_of_reach<3>(theirs, plane.middle, plane.normal, size)) continue;
