@@ -228,6 +228,20 @@ double tie_distance(const Chain& chain, std::span<const Vec2> x) {
   return 1e-10 * (node(facet, 1, x) - node(facet, 0, x)).norm();
 }
 
+/// A line lies in the hull of its ends and, of second and third order, of the Bezier control points
+/// between them.
+void extend_by_control_points_of_line(const Facet& facet, std::span<const Vec2> x,
+                                      search::Box<2>& box) {
+  const Vec2 a = node(facet, 0, x), b = node(facet, 1, x);
+  box.extend(a);
+  box.extend(b);
+  if (facet.count == 3) box.extend(Vec2(2 * node(facet, 2, x) - 0.5 * (a + b)));
+  if (facet.count != 4) return;
+  const Vec2 third = node(facet, 2, x), two_thirds = node(facet, 3, x);
+  box.extend(Vec2((18 * third - 9 * two_thirds - 5 * a + 2 * b) / 6));
+  box.extend(Vec2((18 * two_thirds - 9 * third - 5 * b + 2 * a) / 6));
+}
+
 /// A Bezier curve lies in the hull of its control points.
 void extend_by_control_points(const Facet& facet, std::span<const Vec2> x, search::Box<2>& box) {
   for (std::size_t j = 0; j <= facet.bezier->degree; ++j) {
@@ -256,9 +270,7 @@ void facet_boxes(const Chain& chain, std::span<const Vec2> x, std::vector<search
       extend_by_control_points(facet, x, box);
       continue;
     }
-    for (std::size_t k = 0; k < static_cast<std::size_t>(facet.count); ++k)
-      box.extend(node(facet, k, x));
-    if (facet.count > 2) box.inflate(0.25 * (box.hi - box.lo).norm());
+    extend_by_control_points_of_line(facet, x, box);
   }
 }
 

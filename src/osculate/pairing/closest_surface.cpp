@@ -7,6 +7,7 @@
 #include "osculate/pairing/closest.hpp"
 #include "osculate/pairing/closest_patch.hpp"
 #include "osculate/pairing/other_side.hpp"
+#include "osculate/projection/facet_hull.hpp"
 #include "osculate/projection/point_to_facet.hpp"
 #include "osculate/projection/point_to_surface.hpp"
 
@@ -91,11 +92,20 @@ void release_border(const FacetSurface& surface, const SurfaceFacet& facet, std:
     (void)release(extension, foot);
 }
 
-/// Upper bound of what `release_border` may take from the distance of a first-order facet.
-double release_room(std::span<const Vec3> nodes) {
+/// Upper bound of what `release_border` may take from the distance of a facet.
+double release_room(const SurfaceFacet& facet, std::span<const Vec3> nodes) {
+  const auto corners = static_cast<std::size_t>(edge_count(facet));
+  const bool curved = nodes.size() > corners;
   double longest = 0;  // squared
-  for (std::size_t k = 0; k < nodes.size(); ++k)
-    longest = std::max(longest, (nodes[(k + 1) % nodes.size()] - nodes[k]).squaredNorm());
+  for (std::size_t k = 0; k < corners; ++k) {
+    const Vec3 &a = nodes[k], &b = nodes[(k + 1) % corners];
+    if (!curved) {
+      longest = std::max(longest, (b - a).squaredNorm());
+      continue;
+    }
+    const Vec3 bend = 4 * nodes[corners + k] - 2 * (a + b);  // of the rates 2 (c - a), 2 (b - c)
+    longest = std::max({longest, (b - a + bend).squaredNorm(), (b - a - bend).squaredNorm()});
+  }
   return 4 * end_extension * std::sqrt(longest);
 }
 
@@ -124,12 +134,18 @@ FacetFoot foot_on_facet(const FacetSurface& surface, const SurfaceFacet& facet,
   if (facet.patch) return foot_on_patch(surface, facet, x, query);
   FacetNodes buffer;
   const std::span<const Vec3> nodes = nodes_of(facet, x, buffer);
+  const double reached = std::isfinite(limit) ? limit + release_room(facet, nodes) : limit;
+  if (facet.count > 4 && std::isfinite(limit))
+    if (const double least = projection::least_distance(facet.type, nodes, query.point);
+        least > reached) {
+      FacetFoot far_away;
+      far_away.squared_distance = least * least;
+      return far_away;
+    }
   FacetFoot foot = projection::closest_point(facet.type, nodes, query.point);
-  const double squared_limit = limit * limit;
-  if (foot.squared_distance > squared_limit && facet.count <= 4) {
-    const double reached = limit + release_room(nodes);
-    if (foot.feature == Feature::face || foot.squared_distance > reached * reached) return foot;
-  }
+  if (foot.squared_distance > limit * limit &&
+      (foot.feature == Feature::face || foot.squared_distance > reached * reached))
+    return foot;
   const auto release = [&](double extension, FacetFoot& f) {
     return projection::release(facet.type, nodes, query.point, extension, f);
   };
@@ -322,6 +338,15 @@ Projection<3> on_kept_facet(const FacetSurface& surface, std::span<const Vec3> x
   return p;
 }
 
+/// A quadratic facet lies in the hull of its control points.
+void extend_by_control_points(const SurfaceFacet& facet, std::span<const Vec3> x,
+                              search::Box<3>& box) {
+  FacetNodes buffer;
+  std::array<Vec3, 9> points;
+  const int count = projection::control_points(facet.type, nodes_of(facet, x, buffer), points);
+  for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) box.extend(points[k]);
+}
+
 }  // namespace
 
 void facet_boxes(const FacetSurface& surface, std::span<const Vec3> x,
@@ -344,9 +369,12 @@ void facet_boxes(const FacetSurface& surface, std::span<const Vec3> x,
       for (std::size_t j = 0; j < used; ++j) box.extend(Vec3(points[j].head<3>()));
       continue;
     }
+    if (facet.count > 4) {
+      extend_by_control_points(facet, x, box);
+      continue;
+    }
     for (std::size_t k = 0; k < static_cast<std::size_t>(facet.count); ++k)
       box.extend(node(facet, k, x));
-    if (facet.count > 4) box.inflate(0.25 * (box.hi - box.lo).norm());
   }
 }
 

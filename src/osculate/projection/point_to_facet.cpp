@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
-#include "osculate/cell/linear_facet.hpp"
+#include "osculate/cell/quadratic_facet.hpp"
 #include "osculate/cell/shape.hpp"
 #include "osculate/projection/surface_distance.hpp"
 #include "osculate/projection/triangle.hpp"
@@ -12,24 +13,29 @@
 namespace osculate::projection {
 namespace {
 
-cell::FacetDerivatives derivatives_at(cell::CellType type, std::span<const Vec3> nodes,
-                                      const Vec2& xi) {
-  if (cell::is_linear_facet(type))
-    return cell::linear_facet(
-        type, [&](std::size_t k) -> const Vec3& { return nodes[k]; }, xi);
-  const cell::FacetShape s = cell::facet_shape(type, xi, 2);
-  cell::FacetDerivatives r;
-  r.fill(Vec3::Zero());
-  for (std::size_t d = 0; d < r.size(); ++d)
-    for (std::size_t k = 0; k < nodes.size(); ++k) r[d] += s.n[d][k] * nodes[k];
-  return r;
-}
+/// A facet whose places and derivatives are asked for again and again.
+struct Surface {
+  cell::CellType type;
+  std::span<const Vec3> nodes;
+  std::optional<cell::QuadraticFacet> quadratic;
 
-DistanceJet2 distance_jet2(cell::CellType type, std::span<const Vec3> nodes, const Vec2& xi,
-                           const Vec3& point) {
-  const cell::FacetDerivatives r = derivatives_at(type, nodes, xi);
-  return projection::distance_jet2<3>(point - r[0], {r[1], r[2]}, {r[3], r[4], r[5]});
-}
+  Surface(cell::CellType of_type, std::span<const Vec3> of_nodes) : type(of_type), nodes(of_nodes) {
+    if (!cell::is_linear_facet(type)) quadratic = cell::quadratic_facet(type, Node{nodes});
+  }
+  [[nodiscard]] cell::FacetDerivatives at(const Vec2& xi) const {
+    return quadratic ? quadratic->at(xi) : cell::linear_facet(type, Node{nodes}, xi);
+  }
+  [[nodiscard]] DistanceJet2 distance_jet2(const Vec2& xi, const Vec3& point) const {
+    const cell::FacetDerivatives r = at(xi);
+    return projection::distance_jet2<3>(point - r[0], {r[1], r[2]}, {r[3], r[4], r[5]});
+  }
+
+ private:
+  struct Node {
+    std::span<const Vec3> of;
+    const Vec3& operator()(std::size_t k) const { return of[k]; }
+  };
+};
 
 /// How far a point is outside of the reference cell (0 inside), in parts of its range.
 double outside(cell::CellType type, const Vec2& xi) {
@@ -131,12 +137,11 @@ Start nearest_sample(cell::CellType type, std::span<const Vec3> nodes, const Vec
 
 /// Takes full Newton steps that the distance is too coarse to judge (it is flat where it is
 /// smallest: of 1e-16 relative, 1e-8 of the way), while the slope shrinks.
-void polish(cell::CellType type, std::span<const Vec3> nodes, const Vec3& point, Vec2& xi,
-            DistanceJet2& j) {
+void polish(const Surface& surface, const Vec3& point, Vec2& xi, DistanceJet2& j) {
   for (int it = 0; it < 3 && positive(j.bend); ++it) {
     const Vec2 next_xi = xi + descent(j);
-    if (!next_xi.allFinite() || outside(type, next_xi) > 0) return;
-    const DistanceJet2 next = distance_jet2(type, nodes, next_xi, point);
+    if (!next_xi.allFinite() || outside(surface.type, next_xi) > 0) return;
+    const DistanceJet2 next = surface.distance_jet2(next_xi, point);
     if (!(next.slope.norm() < j.slope.norm())) return;
     xi = next_xi;
     j = next;
@@ -144,31 +149,30 @@ void polish(cell::CellType type, std::span<const Vec3> nodes, const Vec3& point,
 }
 
 /// Safeguarded Newton inside the facet. Feature none if the way leads out of it.
-FacetFoot foot_inside(cell::CellType type, std::span<const Vec3> nodes, const Vec3& point,
-                      const Vec2& start) {
+FacetFoot foot_inside(const Surface& surface, const Vec3& point, const Vec2& start) {
   FacetFoot foot;
   foot.xi = start;
-  DistanceJet2 j = distance_jet2(type, nodes, foot.xi, point);
+  DistanceJet2 j = surface.distance_jet2(foot.xi, point);
   constexpr int most = 40;
   for (int it = 0; it < most; ++it) {
     Vec2 step = descent(j);
     if (!step.allFinite()) return foot;
     if (step.norm() <= 1e-15) break;
-    const double part = inside_part(type, foot.xi, step);
+    const double part = inside_part(surface.type, foot.xi, step);
     if (part < 1e-12) return foot;  // pressed against the border: an edge is nearer
     step *= part;
-    DistanceJet2 next = distance_jet2(type, nodes, foot.xi + step, point);
+    DistanceJet2 next = surface.distance_jet2(foot.xi + step, point);
     for (int half = 0; half < 30 && next.squared_distance > j.squared_distance * (1 + 1e-14);
          ++half) {
       step *= 0.5;
-      next = distance_jet2(type, nodes, foot.xi + step, point);
+      next = surface.distance_jet2(foot.xi + step, point);
     }
     if (next.squared_distance > j.squared_distance * (1 + 1e-14)) break;
     foot.xi += step;
     j = next;
     if (part == 1 && step.norm() <= 1e-15) break;
   }
-  polish(type, nodes, point, foot.xi, j);
+  polish(surface, point, foot.xi, j);
   foot.squared_distance = j.squared_distance;
   foot.converged = positive(j.bend) || j.slope.norm() <= 1e-12 * j.metric.trace();
   foot.feature = foot.converged ? Feature::face : Feature::none;
@@ -200,6 +204,14 @@ Edge edge_of(cell::CellType type, std::span<const Vec3> nodes, int edge) {
   if (cell::info(type).order == 1) return {0.5 * (a + b), 0.5 * (b - a), Vec3::Zero()};
   const Vec3 m = nodes[corners + k];
   return {m, 0.5 * (b - a), 0.5 * (a + b) - m};
+}
+
+/// A lower bound of the distance: an edge is at most |bend| away from its chord.
+double least_distance(const Edge& e, const Vec3& point) {
+  const Vec3 from_chord = point - e.middle - e.bend;
+  const double size = std::max(e.half.squaredNorm(), 1e-300);
+  const double t = std::clamp(from_chord.dot(e.half) / size, -1.0, 1.0);
+  return (from_chord - t * e.half).norm() - e.bend.norm();
 }
 
 /// The same along an edge.
@@ -253,11 +265,12 @@ double nearest_on_edge(const Edge& e, const Vec3& point, double& squared) {
 
 }  // namespace
 
-FacetFoot closest_point_on_edge(cell::CellType type, std::span<const Vec3> nodes, int edge,
-                                const Vec3& point) {
+namespace {
+
+FacetFoot foot_at(cell::CellType type, int edge, double t, double squared) {
   const int corners = cell::is_triangle(type) ? 3 : 4;
   FacetFoot foot;
-  const double t = nearest_on_edge(edge_of(type, nodes, edge), point, foot.squared_distance);
+  foot.squared_distance = squared;
   const Vec2 from = cell::area_node(type, edge), to = cell::area_node(type, (edge + 1) % corners);
   foot.converged = std::isfinite(foot.squared_distance);
   foot.xi = 0.5 * (from + to) + t * 0.5 * (to - from);
@@ -266,24 +279,31 @@ FacetFoot closest_point_on_edge(cell::CellType type, std::span<const Vec3> nodes
   return foot;
 }
 
-namespace {
-
 /// The nearest of the edges, if that is nearer than `best`.
 void compare_border(cell::CellType type, std::span<const Vec3> nodes, const Vec3& point,
                     FacetFoot& best) {
   constexpr double rounding = 1 - 1e-14;
   const int edges = cell::is_triangle(type) ? 3 : 4;
-  double nearest = best.squared_distance;
-  int at = -1;
+  double nearest = best.squared_distance, at = 0;
+  int edge = -1;
   for (int k = 0; k < edges; ++k) {
+    const Edge e = edge_of(type, nodes, k);
+    if (least_distance(e, point) > std::sqrt(nearest)) continue;
     double squared = 0;
-    (void)nearest_on_edge(edge_of(type, nodes, k), point, squared);
-    if (squared < nearest * rounding) nearest = squared, at = k;
+    const double t = nearest_on_edge(e, point, squared);
+    if (squared < nearest * rounding) nearest = squared, edge = k, at = t;
   }
-  if (at >= 0) best = closest_point_on_edge(type, nodes, at, point);
+  if (edge >= 0) best = foot_at(type, edge, at, nearest);
 }
 
 }  // namespace
+
+FacetFoot closest_point_on_edge(cell::CellType type, std::span<const Vec3> nodes, int edge,
+                                const Vec3& point) {
+  double squared = std::numeric_limits<double>::infinity();
+  const double t = nearest_on_edge(edge_of(type, nodes, edge), point, squared);
+  return foot_at(type, edge, t, squared);
+}
 
 FacetFoot closest_point(cell::CellType type, std::span<const Vec3> nodes, const Vec3& point) {
   FacetFoot best;
@@ -292,7 +312,7 @@ FacetFoot closest_point(cell::CellType type, std::span<const Vec3> nodes, const 
     if (best.feature == Feature::face) return best;
   } else {
     const Start start = nearest_sample(type, nodes, point);
-    best = foot_inside(type, nodes, point, start.xi);
+    best = foot_inside(Surface(type, nodes), point, start.xi);
     // Nothing on the border can be nearer than this.
     if (start.border > 0 && best.feature == Feature::face &&
         best.squared_distance <= start.border * start.border)
@@ -305,14 +325,15 @@ FacetFoot closest_point(cell::CellType type, std::span<const Vec3> nodes, const 
 
 bool release(cell::CellType type, std::span<const Vec3> nodes, const Vec3& point, double extension,
              FacetFoot& foot) {
+  const Surface surface(type, nodes);
   Vec2 xi = foot.xi;
-  DistanceJet2 j = distance_jet2(type, nodes, xi, point);
+  DistanceJet2 j = surface.distance_jet2(xi, point);
   for (int it = 0; it < 12; ++it) {
     if (!positive(j.bend)) return false;
     const Vec2 step = -j.bend.inverse() * j.slope;
     xi += step;
     if (!(outside(type, xi) <= extension)) return false;
-    j = distance_jet2(type, nodes, xi, point);
+    j = surface.distance_jet2(xi, point);
     if (step.norm() <= 1e-15) break;
   }
   if (!positive(j.bend)) return false;

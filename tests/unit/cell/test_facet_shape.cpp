@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "osculate/cell/linear_facet.hpp"
+#include "osculate/cell/quadratic_facet.hpp"
 #include "osculate/cell/shape.hpp"
 
 namespace osculate::cell {
@@ -51,6 +52,26 @@ TEST(LinearFacet, IsTheSumOverItsShapeFunctions) {
         Vec3 sum = Vec3::Zero();
         for (std::size_t k = 0; k < static_cast<std::size_t>(s.count); ++k) sum += s.n[d][k] * x[k];
         EXPECT_LT((r[d] - sum).norm(), 1e-15) << info(type).name << " " << d;
+      }
+    }
+  }
+}
+
+TEST(QuadraticFacet, IsTheSumOverItsShapeFunctions) {
+  const std::array<Vec3, 9> x{Vec3(0.1, 0.2, -0.3), Vec3(1.2, 0.1, 0.4),  Vec3(1.5, 1.3, -0.2),
+                              Vec3(-0.2, 0.9, 0.5), Vec3(0.6, 0.1, 0.3),  Vec3(1.3, 0.7, -0.1),
+                              Vec3(0.5, 1.2, 0.7),  Vec3(-0.1, 0.5, 0.1), Vec3(0.4, 0.6, 0.2)};
+  for (const CellType type : facets) {
+    if (is_linear_facet(type)) continue;
+    const QuadraticFacet f =
+        quadratic_facet(type, [&](std::size_t k) -> const Vec3& { return x[k]; });
+    for (const Vec2& xi : {Vec2(0.31, 0.22), Vec2(0, 0), Vec2(1, 0), Vec2(-0.7, 0.9)}) {
+      const FacetShape s = facet_shape(type, xi, 2);
+      const FacetDerivatives r = f.at(xi);
+      for (std::size_t d = 0; d < r.size(); ++d) {
+        Vec3 sum = Vec3::Zero();
+        for (std::size_t k = 0; k < static_cast<std::size_t>(s.count); ++k) sum += s.n[d][k] * x[k];
+        EXPECT_LT((r[d] - sum).norm(), 1e-14) << info(type).name << " " << d;
       }
     }
   }
