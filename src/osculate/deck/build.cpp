@@ -292,6 +292,7 @@ BasicBuilt<Dim> build_in(const Description& description, mesh::Mesh mesh) {
   build_body_changes(context);
   build_steps(context);
   build_pair_changes(context);
+  check_removed(context);
   build_initial_velocity(context);
   warn_of_rest(context);
   build_history(context);

@@ -13,28 +13,6 @@ namespace {
 
 using CellKey = std::pair<Index, Index>;
 
-/// Facets of contact stay.
-template <int Dim>
-void refuse_contact(const BuildContext<Dim>& c, const CellChange& change,
-                    const mesh::CellRef& ref) {
-  const auto nodes = model::cell_nodes(c.model().mesh, ref).nodes;
-  const auto has = [&](Index n) { return std::ranges::find(nodes, n) != nodes.end(); };
-  for (const model::BasicContactPair<Dim>& pair : c.model().pairs) {
-    const pairing::PairDefinition<Dim>& d = pair.definition;
-    bool any = false;
-    for (const auto* const boundary : {&d.slave.boundary, &d.master})
-      for (const auto& facet : boundary->facets)
-        any = any || std::ranges::all_of(
-                         std::span(facet.nodes).first(static_cast<std::size_t>(facet.count)), has);
-    if (any)
-      throw core::InputError(
-          change.on.mark,
-          fmt::format("cells at the surfaces of contact '{}' stay: {} of '{}' is "
-                      "behind one",
-                      pair.name, mesh::cell_number(c.model().mesh, ref), change.on.value));
-  }
-}
-
 /// Cells that come back new, without strain.
 template <int Dim>
 void require_renewable(const BuildContext<Dim>& c, const CellChange& change,
@@ -57,7 +35,6 @@ void take_away(BuildContext<Dim>& c, const CellChange& change, std::set<CellKey>
         throw core::InputError(
             change.on.mark, fmt::format("cell {} of '{}' is not there any more",
                                         mesh::cell_number(c.model().mesh, ref), change.on.value));
-      refuse_contact(c, change, ref);
     }
     to.removed.push_back(std::move(part));
   }
@@ -147,18 +124,6 @@ void change_material(BuildContext<Dim>& c, const MaterialChange& change,
   }
 }
 
-/// Slaves without facets stay, too.
-template <int Dim>
-void refuse_bare_slaves(const BuildContext<Dim>& c, const Step& step) {
-  if (step.remove.empty()) return;
-  for (const model::BasicContactPair<Dim>& pair : c.model().pairs)
-    for (const Index n : pair.definition.slave.nodes)
-      if (c.bare_nodes.back().contains(n))
-        throw core::InputError(step.remove.front().on.mark,
-                               fmt::format("{} of contact '{}' would have no cell left",
-                                           mesh::describe_node(c.model().mesh, n), pair.name));
-}
-
 bool changes_bodies(const Step& step) {
   return !step.remove.empty() || !step.add.empty() || !step.materials.empty() ||
          !step.equations.empty() || !step.free_equations.empty() || step.frees_all_equations;
@@ -202,7 +167,6 @@ void build_body_changes(BuildContext<Dim>& c) {
     change.equations = equations_from(c, s);
     c.removed_cells.push_back(removed);
     c.bare_nodes.push_back(bare_nodes_of(c.model(), removed));
-    refuse_bare_slaves(c, step);
     if (!c.bare_nodes.back().empty() && !step.remove.empty())
       c.built.warnings.push_back(
           fmt::format("step '{}' takes all cells from {} nodes: they stay where they are, or move "

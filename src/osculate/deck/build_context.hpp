@@ -171,6 +171,11 @@ void build_steps(BuildContext<Dim>& context);
 /// Tested by  tests/unit/deck/test_pair_changes.cpp
 template <int Dim>
 void build_pair_changes(BuildContext<Dim>& context);
+/// Fails where a pair acts in a step that lacks cells behind its facets, or all of a slave node.
+///
+/// Tested by  tests/unit/deck/test_pair_changes.cpp
+template <int Dim>
+void check_removed(const BuildContext<Dim>& context);
 template <int Dim>
 void build_history(BuildContext<Dim>& context);
 /// What the files of CalculiX need of the model: facets that forces go through, and the nodes that

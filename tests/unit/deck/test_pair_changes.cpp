@@ -42,6 +42,51 @@ std::string refusal(const std::string& pair, const std::string& first, const std
   return {};
 }
 
+// Cells behind a pair's facets go while the pair is not active, and not otherwise.
+TEST(PairChanges, TheCellsOfAPairGoAndComeWithIt) {
+  const std::string law = "normal: {penalty: 500}",
+                    off = ", contact: [{pair: floor, active: false}]",
+                    remove = ", remove: [{on: block}]", add = ", add: [{on: block}]";
+  const Built b = built(law, "", off + remove);
+  EXPECT_EQ(b.model.body_changes.size(), 1u);
+  EXPECT_EQ(
+      refusal(law, "", remove).substr(0, 87),
+      "m.yaml:9: steps[1].remove[0]: node 3 (2, 0) of contact 'floor' has no cell left in step");
+  EXPECT_EQ(refusal(law, off + remove, ", contact: [{pair: floor, active: true}]").substr(0, 60),
+            "m.yaml:9: steps[1].contact[0]: node 3 (2, 0) of contact 'flo");
+  EXPECT_EQ(refusal(law, off + remove, ", contact: [{pair: floor, active: true}]" + add), "");
+}
+
+// Of a deformable master, whose nodes other cells hold too.
+TEST(PairChanges, NoFacetOfAPairLosesItsCell) {
+  const std::string model =
+      "osculate: 1\n"
+      "mesh: {generate: {left: {box: {x: [0, 2], y: [0, 1], elements: [2, 1]}}, right: {box: {x: "
+      "[2, 4], y: [0, 1], elements: [2, 1]}}, high: {box: {x: [1, 3], y: [1, 2], elements: [2, "
+      "1]}}}}\n"
+      "sets: {rails: {union: [left.top, right.top]}}\n"
+      "materials: {m: {linear_elastic: {E: 100, nu: 0.3}}}\n"
+      "sections: [{on: left, material: m, element: plane_strain}, {on: right, material: m, "
+      "element: "
+      "plane_strain}, {on: high, material: m, element: plane_strain}]\n"
+      "contact: [{name: joint, master: rails, slave: high.bottom, normal: {penalty: 50}}]\n"
+      "steps:\n"
+      "  - {name: one, prescribe: [{on: left.bottom, ux: 0, uy: 0}, {on: right.bottom, ux: 0, uy: "
+      "0}, {on: high.top, ux: 0, uy: 0}]}\n"
+      "  - {name: two, remove: [{on: right}]}\n";
+  const Description d = parse_model(model, "m.yaml");
+  try {
+    (void)build(d, load_mesh(d));
+    FAIL() << "not refused";
+  } catch (const core::InputError& error) {
+    EXPECT_EQ(
+        std::string(error.what()),
+        "m.yaml:9: steps[1].remove[0]: cell 3 at the surface of contact 'joint' is removed in "
+        "step 'two', in which the pair is active: make it inactive (`contact: [{pair: joint, "
+        "active: false}]`), or let them stay");
+  }
+}
+
 TEST(PairChanges, StayFromStepToStep) {
   const Built b = built("normal: {penalty: 500}, friction: {coulomb: {mu: 0.1, penalty: 200}}",
                         ", contact: [{pair: floor, active: false}]",
