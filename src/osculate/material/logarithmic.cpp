@@ -32,8 +32,8 @@ void turn_pair(Mat<3, 3>& a, Mat<3, 3>& axes, Eigen::Index p, Eigen::Index q) {
     return;
   }
   const double ratio = (a(q, q) - a(p, p)) / (2 * a(p, q));
-  const double t = (ratio < 0 ? -1 : 1) / (std::abs(ratio) + std::hypot(ratio, 1.0));
-  const double c = 1 / std::hypot(t, 1.0), s = t * c;
+  const double t = (ratio < 0 ? -1 : 1) / (std::abs(ratio) + std::sqrt(ratio * ratio + 1));
+  const double c = 1 / std::sqrt(t * t + 1), s = t * c;
   const double moved = t * a(p, q);
   a(p, p) -= moved;
   a(q, q) += moved;
@@ -81,7 +81,8 @@ LogarithmicStrain::LogarithmicStrain(const Strain3& strain) {
   strain_ = a.diagonal();
   ok_ = strain_.minCoeff() > -0.5 && a.allFinite();
   for (Eigen::Index i = 0; ok_ && i < 3; ++i)
-    for (Eigen::Index j = 0; j < 3; ++j) first_(i, j) = first_difference(strain_[i], strain_[j]);
+    for (Eigen::Index j = 0; j <= i; ++j)
+      first_(i, j) = first_(j, i) = first_difference(strain_[i], strain_[j]);
 }
 
 Strain3 LogarithmicStrain::strain() const {
@@ -107,13 +108,19 @@ Stress3 LogarithmicStrain::stress(const Stress3& of_logarithm) const {
 Response3 LogarithmicStrain::response(const Response3& of_logarithm) const {
   const Mat<3, 3> t = axes_.transpose() * tensor(of_logarithm.stress, 1) * axes_;
   Mat<6, 6> change = Mat<6, 6>::Zero();  // T : L in the axes
+  std::array<std::array<std::array<double, 3>, 3>, 3> second{};
+  for (std::size_t p = 0; p < 3; ++p)
+    for (std::size_t q = 0; q <= p; ++q)
+      for (std::size_t s = 0; s <= q; ++s)
+        second[p][q][s] = second[p][s][q] = second[q][p][s] = second[q][s][p] = second[s][p][q] =
+            second[s][q][p] = second_difference_of_log(strain_[static_cast<Eigen::Index>(p)],
+                                                       strain_[static_cast<Eigen::Index>(q)],
+                                                       strain_[static_cast<Eigen::Index>(s)]);
   for (std::size_t p = 0; p < 3; ++p)
     for (std::size_t q = 0; q < 3; ++q)
       for (std::size_t s = 0; s < 3; ++s) {
-        const auto i = static_cast<Eigen::Index>(p), j = static_cast<Eigen::Index>(q),
-                   k = static_cast<Eigen::Index>(s);
-        const double term = 2 * t(i, k) * (p == q ? 1 : 0.5) * (q == s ? 1 : 0.5) *
-                            second_difference_of_log(strain_[i], strain_[j], strain_[k]);
+        const auto i = static_cast<Eigen::Index>(p), k = static_cast<Eigen::Index>(s);
+        const double term = 2 * t(i, k) * (p == q ? 1 : 0.5) * (q == s ? 1 : 0.5) * second[p][q][s];
         change(place[p][q], place[q][s]) += term;
         change(place[q][s], place[p][q]) += term;
       }

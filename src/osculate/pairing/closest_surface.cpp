@@ -135,7 +135,7 @@ FacetFoot foot_on_facet(const FacetSurface& surface, const SurfaceFacet& facet,
   FacetNodes buffer;
   const std::span<const Vec3> nodes = nodes_of(facet, x, buffer);
   const double reached = std::isfinite(limit) ? limit + release_room(facet, nodes) : limit;
-  if (facet.count > 4 && std::isfinite(limit))
+  if (facet.count > 3 && std::isfinite(limit))
     if (const double least = projection::least_distance(facet.type, nodes, query.point);
         least > reached) {
       FacetFoot far_away;

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "osculate/cell/shape.hpp"
+#include "osculate/cell/linear_facet.hpp"
 #include "osculate/projection/triangle.hpp"
 
 namespace osculate::projection {
@@ -27,9 +27,11 @@ int control_points(cell::CellType type, std::span<const Vec3> nodes, std::span<V
 
 namespace {
 
-/// How far a quadratic facet is away from the triangles through its corners at most.
+/// How far a facet is away from the triangles through its corners at most.
 double bulge_of(cell::CellType type, std::span<const Vec3> nodes) {
   const std::size_t corners = cell::is_triangle(type) ? 3 : 4;
+  const double warp = corners == 3 ? 0 : 0.25 * (nodes[0] - nodes[1] + nodes[2] - nodes[3]).norm();
+  if (cell::is_linear_facet(type)) return warp;
   double squared = 0;
   for (std::size_t k = 0; k < corners; ++k) {
     const Vec3 middle = 0.5 * (nodes[k] + nodes[(k + 1) % corners]);
@@ -41,8 +43,7 @@ double bulge_of(cell::CellType type, std::span<const Vec3> nodes) {
   control_points(type, nodes, points);
   const Vec3 middle = 0.25 * (nodes[0] + nodes[1] + nodes[2] + nodes[3]);
   squared = std::max(squared, (points[8] - middle).squaredNorm());
-  const Vec3 warp = 0.25 * (nodes[0] - nodes[1] + nodes[2] - nodes[3]);
-  return 0.75 * std::sqrt(squared) + warp.norm();
+  return 0.75 * std::sqrt(squared) + warp;
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What holds for every point of a quadratic facet: its hull, and how near it can be.
+// What holds for every point of a facet: its hull, and how near it can be.
 #include "osculate/projection/facet_hull.hpp"
 
 #include <gtest/gtest.h>
@@ -74,7 +74,8 @@ TEST(FacetHull, NoPlaceIsNearerThanTheBound) {
   std::mt19937 generator(2);
   std::uniform_real_distribution<double> u(-2, 2);
   constexpr int steps = 40;
-  for (const CellType type : types)
+  for (const CellType type :
+       {CellType::tri3, CellType::quad4, CellType::tri6, CellType::quad8, CellType::quad9})
     for (const double noise : {0.0, 0.05, 0.4})
       for (int i = 0; i < 60; ++i) {
         const std::vector<Vec3> nodes = facet(type, noise, generator);
