@@ -284,6 +284,7 @@ void BasicSystem<Dim>::Impl::assemble_terms(const State& committed, const Trial&
     last.carried =
         inc.head(Dim * static_cast<Eigen::Index>(x.size())).template lpNorm<Eigen::Infinity>();
   }
+  out.led = predict && !inc.isZero(0.0);
   Assembly<Dim> to = assembly(with_tangent, predict ? &inc : nullptr);
   const double length = time_between(committed, fraction);
   // A state against itself: no time has passed since what its material points remember.

@@ -42,6 +42,7 @@ struct Evaluation {
       0;               ///< the part of it that inertia has: the position is none the worse
   bool loaded = true;  ///< forces act from outside
   StateCounts counts;
+  bool led = false;     ///< a prediction: what is prescribed has yet to move, and bodies with it
   bool saddle = false;  ///< some unknowns are multipliers: the residual has no potential
 };
 

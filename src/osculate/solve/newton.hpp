@@ -263,9 +263,27 @@ struct Correction {
   bool resisted;
 };
 
+/// Whether the first correction of an increment went far too far: by more than a cell, and into
+/// something it knew nothing of, which pushes back with a thousand times the work that the loads
+/// did. (Contact that closes over less is found in fewer iterations from there.)
+template <System S>
+bool overshot(const S& system, const Correction& by, int touching,
+              const NewtonResult<typename S::Trial>& result) {
+  constexpr double far_too_far = 1e3;
+  const Evaluation& e = result.evaluation;
+  if (!e.ok || e.counts.touching() <= touching) return false;
+  const double work = by.du.dot(e.residual);
+  if (work * by.du.dot(by.residual) >= 0 || std::abs(work) <= far_too_far * by.energy) return false;
+  if constexpr (Resists<S>) return system.stride(by.du) > 1;
+  return true;
+}
+
 /// Moves the trial along a correction, by a line search where the residual is smooth, and evaluates
 /// it there with its tangent. `known`: what is converged needs no tangent, and is not evaluated
-/// twice.
+/// twice. The first correction of an increment is searched where it went too far, and only if
+/// nothing is prescribed to move: bodies would lag behind that.
+///
+/// Decision   docs/decisions/084-first-corrections.md
 template <System S>
 Searched move_along(S& system, const typename S::State& committed, const Correction& by, bool whole,
                     const Judge& judge, NewtonResult<typename S::Trial>& result, bool& known) {
@@ -274,14 +292,24 @@ Searched move_along(S& system, const typename S::State& committed, const Correct
                       e.branch_residual.size() == 0 && !e.saddle;
   const bool weak = result.precision.condition > 0;
   const bool doubtful = !by.first || result.extrapolated || by.resisted || weak;
+  const bool led = e.led;
+  const int touching = e.counts.touching();
   Searched searched;
-  if (search && doubtful)
+  const auto look = [&] {
     searched =
         line_search(system, committed, result, by.du, by.residual, by.time, by.resisted, weak);
+  };
+  const typename S::Trial start = result.trial;
+  if (search && doubtful)
+    look();
   else
-    result.trial = system.apply(result.trial, by.du, by.time, 1.0);
+    result.trial = system.apply(start, by.du, by.time, 1.0);
   known = searched.evaluated && !by.resisted && meets(judge, by.du, by.energy, result);
   if (!known) system.evaluate(committed, result.trial, by.time, true, result.evaluation);
+  if (!search || doubtful || led || !overshot(system, by, touching, result)) return searched;
+  result.trial = start;
+  look();
+  system.evaluate(committed, result.trial, by.time, true, result.evaluation);
   return searched;
 }
 

@@ -416,5 +416,54 @@ TEST(Newton, LineSearchStaysWhereThereIsAnAnswer) {
   EXPECT_EQ(plain.iterations.size(), 1u);
 }
 
+/// A soft spring of stiffness 1 that a force of 40 drives against a wall at 12.
+Eigen::VectorXd pushed_back(const Eigen::VectorXd& x) {
+  constexpr double stiffness = 1e6;
+  Eigen::VectorXd f = Eigen::VectorXd::Zero(x.size());
+  const Eigen::Index last = x.size() - 1;
+  f[last] = stiffness * std::max(x[last] - 12, 0.0);
+  return f;
+}
+
+// The first correction knows no wall: of it only the way to the wall is taken.
+TEST(Newton, TheFirstCorrectionEndsWhereItMeetsMoreThanItBrought) {
+  ToySystem system =
+      scalar_system([](double x, double t) { return x + pushed_back(vector({x}))[0] - 40 * t; },
+                    [](double x) { return x > 12 ? 1e6 + 1 : 1.0; });
+  system.touching = [](const Eigen::VectorXd& x) { return x[0] > 12 ? 1 : 0; };
+  const auto result = solve_from(system, 0, {});
+  ASSERT_EQ(result.outcome, Outcome::converged) << result.reason;
+  EXPECT_NEAR(result.trial.x[0], 12 + 28 / (1e6 + 1), 1e-9);
+  EXPECT_NEAR(result.iterations[0].step, 0.3, 1e-3);
+  // Without a wall, or one that gives way, all of it is.
+  EXPECT_EQ(solve_from(system, 0, {}, 0.2).iterations[0].step, 1.0);
+  ToySystem soft =
+      scalar_system([](double x, double t) { return x + std::max(x - 12, 0.0) - 40 * t; },
+                    [](double x) { return x > 12 ? 2.0 : 1.0; });
+  soft.touching = system.touching;
+  EXPECT_EQ(solve_from(soft, 0, {}).iterations[0].step, 1.0);
+}
+
+// What is prescribed has moved in whole: bodies that came along by a part would be torn.
+TEST(Newton, TheFirstCorrectionFollowsWhatIsPrescribed) {
+  ToySystem system;
+  system.size = 2;
+  system.force = [](const Eigen::VectorXd& x, double) {
+    return Eigen::VectorXd(vector({x[0] - x[1], x[1] - x[0]}) + pushed_back(x));
+  };
+  system.stiffness = [](const Eigen::VectorXd& x) {
+    Eigen::MatrixXd k(2, 2);
+    k << 1, -1, -1, 1 + (x[1] > 12 ? 1e6 : 0.0);
+    return k;
+  };
+  system.builder = la::MatrixBuilder(2);
+  system.prescribed = [](double t) { return 40 * t; };
+  system.touching = [](const Eigen::VectorXd& x) { return x[1] > 12 ? 1 : 0; };
+  la::Mumps solver;
+  const auto result = newton(system, {vector({0, 0})}, 1.0, {}, solver);
+  ASSERT_EQ(result.outcome, Outcome::converged) << result.reason;
+  EXPECT_EQ(result.iterations[0].step, 1.0);
+}
+
 }  // namespace
 }  // namespace osculate::solve

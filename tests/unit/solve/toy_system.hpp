@@ -28,6 +28,7 @@ struct ToySystem {
   std::function<std::string(const Vector& x, const Vector& committed)> wrong;  ///< empty = ok
   std::function<double(double time)> prescribed;
   std::function<std::uint64_t(const Vector& x)> states = [](const Vector&) { return 0; };
+  std::function<int(const Vector& x)> touching = [](const Vector&) { return 0; };
   double round_off = 0, round_off_in_time = 0;  ///< the estimates
   bool loaded = true;
   std::vector<Vector> evaluated;  ///< every x that `evaluate` saw
@@ -49,6 +50,7 @@ struct ToySystem {
     evaluate(state, state, time, true, out);
     if (!prescribed) return;
     const double du = prescribed(time) - state.x[0];
+    out.led = du != 0;
     out.residual += du * stiffness(state.x).col(0);
     out.residual[0] = 0;
   }
@@ -67,6 +69,8 @@ struct ToySystem {
     out.round_off = round_off;
     out.round_off_in_time = round_off_in_time;
     out.loaded = loaded;
+    out.led = false;
+    out.counts.closed = touching(trial.x);
     out.counts.signature = states(trial.x);
     if (tangent) fill(trial.x);
   }
