@@ -5,7 +5,7 @@
 
 namespace osculate::pairing {
 
-/// Boxes of all facets in configuration `x` (analytic shapes: infinite).
+/// Boxes of all facets at `x`, by their control points (test_facet_boxes.cpp); of shapes: infinite.
 void facet_boxes(const Chain& chain, std::span<const Vec2> x, std::vector<search::Box<2>>& boxes);
 void facet_boxes(const FacetSurface& surface, std::span<const Vec3> x,
                  std::vector<search::Box<3>>& boxes, PatchPoints patches = {});
