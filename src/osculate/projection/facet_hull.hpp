@@ -17,8 +17,8 @@ namespace osculate::projection {
 int control_points(cell::CellType type, std::span<const Vec3> nodes, std::span<Vec3, 9> out);
 
 /// A lower bound of the distance of a point from a facet: that from the triangles
-/// through its corners, less the farthest that the facet is away from them; exact for a flat triangle with
-/// straight edges and a flat parallelogram.
+/// through its corners, less the farthest that the facet is away from them; exact for a flat
+/// triangle with straight edges and a flat parallelogram.
 ///
 /// Formula    triangles: |r - flat| <= 4/3 max |m - (a + b) / 2|, since the functions of the edges
 ///            sum up to 2/3 at most; quadrilaterals: 3/4 of the largest distance between control

@@ -425,7 +425,7 @@ Eigen::VectorXd pushed_back(const Eigen::VectorXd& x) {
   return f;
 }
 
-// The first correction knows no wall: of it only the way to the wall is taken.
+// The first correction knows no wall: of it no more than the way to the wall is taken.
 TEST(Newton, TheFirstCorrectionEndsWhereItMeetsMoreThanItBrought) {
   ToySystem system =
       scalar_system([](double x, double t) { return x + pushed_back(vector({x}))[0] - 40 * t; },
@@ -434,7 +434,9 @@ TEST(Newton, TheFirstCorrectionEndsWhereItMeetsMoreThanItBrought) {
   const auto result = solve_from(system, 0, {});
   ASSERT_EQ(result.outcome, Outcome::converged) << result.reason;
   EXPECT_NEAR(result.trial.x[0], 12 + 28 / (1e6 + 1), 1e-9);
-  EXPECT_NEAR(result.iterations[0].step, 0.3, 1e-3);
+  EXPECT_LT(result.iterations[0].step, 0.3 + 1e-6);
+  EXPECT_GT(result.iterations[0].step, 0.25);
+  EXPECT_LE(result.iterations.size(), 6U);
   // Without a wall, or one that gives way, all of it is.
   EXPECT_EQ(solve_from(system, 0, {}, 0.2).iterations[0].step, 1.0);
   ToySystem soft =
