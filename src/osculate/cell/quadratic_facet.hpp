@@ -6,8 +6,7 @@ namespace osculate::cell {
 /// A quadratic facet (tri6, quad8, quad9) as a polynomial: places that many are asked for cost a
 /// fraction of what its shape functions do.
 ///
-/// Formula    r = sum over i, j < 3 of c_ij xi^i eta^j. The ninth node of a quad8: half the sum of
-///            the edges' middle nodes less a quarter of that of the corners
+/// Formula    r = sum over i, j < 3 of c_ij xi^i eta^j
 /// Tested by  tests/unit/cell/test_facet_shape.cpp
 struct QuadraticFacet {
   std::array<std::array<Vec3, 3>, 3> c;
@@ -26,6 +25,17 @@ struct QuadraticFacet {
   }
 };
 
+/// The ninth node of a quad9, or the place of a quad8 there.
+///
+/// Formula    quad8: half the sum of the edges' middle nodes less a quarter of that of the corners
+/// Tested by  tests/unit/cell/test_facet_shape.cpp
+template <class NodeAt>
+[[nodiscard]] Vec3 middle_node(CellType type, const NodeAt& node) {
+  if (type == CellType::quad9) return node(8);
+  return 0.5 * (node(4) + node(5) + node(6) + node(7)) -
+         0.25 * (node(0) + node(1) + node(2) + node(3));
+}
+
 /// `node(k)` is the position of local node k; `type` tri6, quad8 or quad9.
 template <class NodeAt>
 [[nodiscard]] QuadraticFacet quadratic_facet(CellType type, const NodeAt& node) {
@@ -40,16 +50,12 @@ template <class NodeAt>
     f.c[1][2] = f.c[2][1] = f.c[2][2] = Vec3::Zero();
     return f;
   }
-  const Vec3 edges = node(4) + node(5) + node(6) + node(7);
-  const Vec3 middle = type == CellType::quad9
-                          ? Vec3(node(8))
-                          : Vec3(0.5 * edges - 0.25 * (node(0) + node(1) + node(2) + node(3)));
   // Along xi: 1, xi, xi^2 of the three rows eta = -1, 0, 1; then along eta.
   const auto along = [](const Vec3& lo, const Vec3& mid, const Vec3& hi) {
     return std::array<Vec3, 3>{mid, 0.5 * (hi - lo), 0.5 * (hi + lo) - mid};
   };
   const std::array<Vec3, 3> low = along(node(0), node(4), node(1)),
-                            mid = along(node(7), middle, node(5)),
+                            mid = along(node(7), middle_node(type, node), node(5)),
                             high = along(node(3), node(6), node(2));
   for (std::size_t i = 0; i < 3; ++i) f.c[i] = along(low[i], mid[i], high[i]);
   return f;

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "osculate/cell/linear_facet.hpp"
+#include "osculate/cell/quadratic_facet.hpp"
 #include "osculate/projection/triangle.hpp"
 
 namespace osculate::projection {
@@ -20,8 +20,9 @@ int control_points(cell::CellType type, std::span<const Vec3> nodes, std::span<V
     of_edges += middle;
   }
   if (corners == 3) return 6;
-  out[8] = type == cell::CellType::quad9 ? Vec3(4 * nodes[8] - of_edges + 0.25 * of_corners)
-                                         : Vec3(of_edges - 0.75 * of_corners);
+  const Vec3 middle =
+      cell::middle_node(type, [&](std::size_t k) -> const Vec3& { return nodes[k]; });
+  out[8] = 4 * middle - of_edges + 0.25 * of_corners;
   return 9;
 }
 

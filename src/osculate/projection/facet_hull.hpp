@@ -10,8 +10,7 @@ namespace osculate::projection {
 /// The order is that of the nodes (a quad8 has a ninth one in its middle); corners are nodes.
 ///
 /// Formula    beside an edge a b with middle node m: 2 m - (a + b) / 2; in the middle of a quad9
-///            4 m - sum of the edges' middle nodes + sum of the corners / 4, where a quad8 has
-///            m = sum of the edges' middle nodes / 2 - sum of the corners / 4
+///            4 m - sum of the edges' middle nodes + sum of the corners / 4 (m: cell::middle_node)
 /// Returns    how many there are
 /// Tested by  tests/unit/projection/test_facet_hull.cpp
 int control_points(cell::CellType type, std::span<const Vec3> nodes, std::span<Vec3, 9> out);

@@ -263,10 +263,6 @@ double nearest_on_edge(const Edge& e, const Vec3& point, double& squared) {
   return t;
 }
 
-}  // namespace
-
-namespace {
-
 FacetFoot foot_at(cell::CellType type, int edge, double t, double squared) {
   const int corners = cell::is_triangle(type) ? 3 : 4;
   FacetFoot foot;
