@@ -136,12 +136,29 @@ void check_cell(const BuildContext<Dim>& c, const Section& s,
   check_shape(c, s, ref);
 }
 
+/// Cells that have two directions along a shell and one across it.
+bool is_of_layers(cell::CellType type) {
+  using cell::CellType;
+  constexpr std::array of_layers{CellType::wedge6, CellType::wedge15, CellType::hex8,
+                                 CellType::hex20,  CellType::hex27,   CellType::shell18};
+  return std::ranges::find(of_layers, type) != of_layers.end();
+}
+
 /// Axes that are given mean something, and are some.
 template <int Dim>
 void check_orientation(BuildContext<Dim>& c, const Section& s, const solid::Section<Dim>& section) {
   const material::Orientation& axes = s.orientation.value;
   if (axes.kind == material::Orientation::Kind::global) return;
   require_axes(axes, s.orientation.mark);
+  if (axes.on_shell)
+    for (const mesh::CellRef& ref : c.set(s.on).cells) {
+      const cell::CellType type = c.model().mesh.blocks[static_cast<std::size_t>(ref.block)].type;
+      if (!is_of_layers(type))
+        throw core::InputError(s.orientation.mark,
+                               fmt::format("shell: true is for layers of bricks or wedges, and set "
+                                           "'{}' has {} cells",
+                                           s.on.value, cell::info(type).name));
+    }
   if (!material::directional(section.law) && section.expansion.directions.empty())
     c.built.warnings.push_back(
         fmt::format("sections: the orientation on '{}' has no effect: material '{}' is the same in "

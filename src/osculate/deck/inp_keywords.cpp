@@ -200,10 +200,10 @@ constexpr std::array<InpKeyword, 150> keywords{{
     {"EL FILE",
      "FREQUENCY, OUTPUT, GLOBAL; FREQUENCYF, TIME POINTS, ELSET, NSET, POSITION, SECTION FORCES, "
      "ERROR ESTIMATOR, LAST ITERATIONS, CONTACT ELEMENT, CONTACT ELEMENTS",
-     "names of results", translated, "`output.frd`: S, E, PEEQ"},
+     "names of results", translated, "`output.frd`: S, E, PEEQ, ENER"},
     {"CONTACT FILE",
      "FREQUENCY; FREQUENCYF, TIME POINTS, NSET, LAST ITERATIONS, CONTACT ELEMENT, CONTACT ELEMENTS",
-     "names of results", translated, "`output.frd`: CONTACT"},
+     "names of results", translated, "`output.frd`: CONTACT, CELS"},
     {"NODE OUTPUT",
      "FREQUENCY, OUTPUT, GLOBAL; FREQUENCYF, TIME POINTS, NSET, VARIABLE, EXTERIOR, LAST "
      "ITERATIONS, CONTACT ELEMENT, CONTACT ELEMENTS",
@@ -212,11 +212,11 @@ constexpr std::array<InpKeyword, 150> keywords{{
      "FREQUENCY, OUTPUT, GLOBAL; FREQUENCYF, TIME POINTS, ELSET, NSET, POSITION, SECTION FORCES, "
      "ERROR ESTIMATOR, VARIABLE, DIRECTIONS, EXTERIOR, LAST ITERATIONS, CONTACT ELEMENT, CONTACT "
      "ELEMENTS",
-     "names of results", translated, "`output.frd`: S, E, PEEQ"},
+     "names of results", translated, "`output.frd`: S, E, PEEQ, ENER"},
     {"CONTACT OUTPUT",
      "FREQUENCY; FREQUENCYF, TIME POINTS, NSET, VARIABLE, LAST ITERATIONS, SLAVE, MASTER, SURFACE, "
      "GENERAL CONTACT, CONTACT ELEMENT, CONTACT ELEMENTS",
-     "names of results", translated, "`output.frd`: CONTACT"},
+     "names of results", translated, "`output.frd`: CONTACT, CELS"},
     {"OUTPUT", "FIELD, HISTORY", "", silent, "`output`"},
     {"PREPRINT", "", "", silent, ""},
     {"PRINT", "", "", silent, ""},

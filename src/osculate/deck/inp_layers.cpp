@@ -26,39 +26,6 @@ bool has_axes(const InpModel& m, std::string_view material) {
   return false;
 }
 
-/// Of rectangular axes the third one; none where they are others.
-std::optional<Vec3> third_axis(SourceNode& axes) {
-  SourceNode* const points = find(axes, "rectangular");
-  SourceNode* const turn = find(axes, "turn");
-  if (!points || (turn && find(*turn, "about")->text != "3")) return {};
-  const auto point = [&](const char* key) {
-    Vec3 place = Vec3::Zero();
-    const SourceNode& list = *find(*points, key);
-    for (std::size_t k = 0; k < 3; ++k)
-      place[static_cast<Eigen::Index>(k)] = std::stod(list.items[k].text);
-    return place;
-  };
-  return point("x").cross(point("xy")).normalized();
-}
-
-/// Axes of a shell's material are those of a solid only where the third one is the normal.
-void require_flat(const InpModel& m, io::inp::Place place, const std::string& set,
-                  const Vec3& axis) {
-  const mesh::Mesh& mesh = m.mesh.mesh;
-  for (const mesh::CellRef& ref : mesh.find_set(set)->cells) {
-    const Index* const nodes = mesh.blocks[static_cast<std::size_t>(ref.block)].cell(ref.cell);
-    const auto at = [&](int k) { return mesh.nodes[static_cast<std::size_t>(nodes[k])]; };
-    const Vec3 normal = (at(1) - at(0)).cross(Vec3(at(2) - at(0))).normalized();
-    constexpr double same = 1 - 1e-6;
-    if (!(normal.dot(axis) > same))
-      io::inp::fail(m.deck, place,
-                    fmt::format("shells that are not isotropic need an *ORIENTATION, SYSTEM="
-                                "RECTANGULAR whose third axis is the normal of their elements; "
-                                "element {} has another",
-                                mesh::cell_number(mesh, ref)));
-  }
-}
-
 /// Bending of a layer of C3D8R is held by hourglass control alone, whose size is that of a modulus.
 void refuse_hourglass(const InpModel& m, const Card& card, SourceNode& section) {
   const mesh::Mesh& mesh = m.mesh.mesh;
@@ -73,16 +40,21 @@ void refuse_hourglass(const InpModel& m, const Card& card, SourceNode& section) 
 
 }  // namespace
 
-void put_shell_axes(const InpModel& m, const Card& card, io::inp::Place place,
-                    const std::string& orientation, SourceNode& section) {
+void put_shell_axes(const InpModel& m, const Card& card, const std::string& orientation,
+                    SourceNode& section) {
   refuse_hourglass(m, card, section);
-  std::optional<Vec3> axis = Vec3::UnitZ();
-  if (!orientation.empty()) {
-    SourceNode axes = inp_orientation(m, card, orientation);
-    axis = third_axis(axes);
-    put(section, "orientation", std::move(axes));
+  if (card.keyword != "SHELLSECTION") return;  // axes of beams are x, y and z
+  const int line = line_of(card.at);
+  SourceNode axes = inp_map(line);
+  if (orientation.empty()) {
+    SourceNode& in_space = put(axes, "rectangular", inp_map(line));
+    put(in_space, "x", inp_point(Vec3::UnitX(), 3, line));
+    put(in_space, "xy", inp_point(Vec3::UnitY(), 3, line));
+  } else {
+    axes = inp_orientation(m, card, orientation);
   }
-  require_flat(m, place, find(section, "on")->text, axis.value_or(Vec3::Zero()));
+  put(axes, "shell", inp_text("true", line)).quoted = false;
+  put(section, "orientation", std::move(axes));
 }
 
 void put_layers(InpModel& m, const Card& card, SourceNode& sections) {
@@ -106,7 +78,7 @@ void put_layers(InpModel& m, const Card& card, SourceNode& sections) {
     put(section, "kinematics", inp_text(m.finite ? "finite" : "small", at));
     put(section, "formulation", inp_text(std::string(parts[0].formulation), at));
     if (has_axes(m, io::inp::capitals(material)))
-      put_shell_axes(m, card, line.at, io::inp::capitals(orientation), section);
+      put_shell_axes(m, card, io::inp::capitals(orientation), section);
   }
 }
 

@@ -344,17 +344,14 @@ MaterialCards material_of(const InpModel& m, const Card& section) {
   return {};
 }
 
-/// Whether a section's material needs axes. Those of beams have none here.
+/// Whether a section's material needs axes.
 bool needs_axes(const InpModel& m, const Card& section) {
   const MaterialCards material = material_of(m, section);
   const Card* const elastic = material.elastic;
   if (material.user && !option_of(section, "ORIENTATION").empty())
     io::inp::fail(m.deck, section, "a *USER MATERIAL in axes of its own is not supported");
-  const bool directional = (elastic && is_directional(*elastic)) ||
-                           (material.expansion && expands_by_directions(*material.expansion));
-  if (directional && section.keyword == "BEAMSECTION")
-    io::inp::fail(m.deck, section, "beams of a material that is not isotropic are not supported");
-  return directional;
+  return (elastic && is_directional(*elastic)) ||
+         (material.expansion && expands_by_directions(*material.expansion));
 }
 
 /// Results that the deck wants in the axes of a section's material.
@@ -395,7 +392,7 @@ SourceNode inp_sections(InpModel& m) {
       put(section, "kinematics", inp_text(m.finite ? "finite" : "small", line));
       put(section, "formulation", inp_text(std::string(part.formulation), line));
       if (directional && io::inp::is_thin_section(card))
-        put_shell_axes(m, card, card.at, orientation, section);
+        put_shell_axes(m, card, orientation, section);
       else if (directional && !orientation.empty())
         put(section, "orientation", inp_orientation(m, card));
       const auto lines = io::inp::lines_of(m.deck, card);

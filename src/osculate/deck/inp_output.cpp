@@ -52,9 +52,8 @@ std::string word_of(const std::string& name, bool file) {
   if (name == "SOM" || name == "SOAREA") return "SOF";
   if (name == "CDISP") return "CDIS";
   if (name == "CSTRESS" || name == "CSTRE") return "CSTR";
-  constexpr std::array<std::string_view, 5> both{"U", "RF", "S", "E", "PEEQ"};
-  constexpr std::array<std::string_view, 8> tables{"ENER", "EVOL", "ELSE", "CDIS",
-                                                   "CSTR", "CNUM", "CELS", "SOF"};
+  constexpr std::array<std::string_view, 7> both{"U", "RF", "S", "E", "PEEQ", "ENER", "CELS"};
+  constexpr std::array<std::string_view, 6> tables{"EVOL", "ELSE", "CDIS", "CSTR", "CNUM", "SOF"};
   const bool known = std::ranges::find(both, name) != both.end() ||
                      (!file && std::ranges::find(tables, name) != tables.end());
   return known ? name : std::string();
@@ -94,7 +93,8 @@ class Requests {
     const mesh::ThinElements thin = mesh::thin_elements(m_.mesh.mesh);
     if (thin.elements.empty() && thin.complete) return false;
     const bool contact = std::ranges::any_of(active_, [](const Active& a) {
-      return a.file && std::ranges::find(a.wanted.of, "CONTACT") != a.wanted.of.end();
+      constexpr std::array<std::string_view, 2> of_contact{"CONTACT", "CELS"};
+      return a.file && std::ranges::find_first_of(a.wanted.of, of_contact) != a.wanted.of.end();
     });
     if (thin.complete && !contact) return true;
     m_.notes.push_back(

@@ -167,10 +167,10 @@ struct InpElements {
 ///
 /// Tested by  tests/unit/deck/test_inp_layers.cpp
 void put_layers(InpModel& m, const io::inp::Card& card, SourceNode& sections);
-/// Adds the axes of a material to the section of a shell, which is plane and has the third one as
-/// its normal; without a name those of the mesh.
-void put_shell_axes(const InpModel& m, const io::inp::Card& card, io::inp::Place place,
-                    const std::string& orientation, SourceNode& section);
+/// Adds the axes of a material to the section of a shell, along which they lie; without a name of
+/// an orientation those of space do so. Of beams they stay as they are.
+void put_shell_axes(const InpModel& m, const io::inp::Card& card, const std::string& orientation,
+                    SourceNode& section);
 /// Elements of several sections stay in the last one; the sets of what is left of the others.
 [[nodiscard]] SourceNode inp_overlaps(const InpModel& m, SourceNode& sections);
 /// A set of elements of one material, and its mass per volume.

@@ -72,7 +72,7 @@ template <class T>
 /// Two points that give axes: one of two keys.
 [[nodiscard]] std::vector<BoundKey<material::Orientation>> orientation_keys();
 /// The same, and how they are turned about one of them.
-[[nodiscard]] BoundKeys<material::Orientation> turned_orientation_keys();
+[[nodiscard]] std::vector<BoundKey<material::Orientation>> turned_orientation_keys();
 /// Where the axes of a section's material point.
 [[nodiscard]] BoundKey<Section> orientation_key();
 /// Keys of the materials of small strains, and of those that remember: one after the other.

@@ -32,14 +32,18 @@ BoundKey<R> steps_of_key() {
 
 BoundKeys<R> frd_keys() {
   using A = Answer;
-  return {{results_key({word("U", A::u, "displacement (DISP)"), word("S", A::s, "stress (STRESS)"),
-                        word("E", A::e, "strain (TOSTRAIN)"),
-                        word("RF", A::rf, "forces: loads and reactions (FORC)"),
-                        word("PEEQ", A::peeq, "equivalent plastic strain (PE)"),
-                        word("CONTACT", A::contact,
-                             "gap, slip, pressure and shear at the slaves' nodes (CONTACT)")},
-                       "[U, S, RF]"),
-           every_key(), steps_of_key()}};
+  return {
+      {results_key(
+           {word("U", A::u, "displacement (DISP)"), word("S", A::s, "stress (STRESS)"),
+            word("E", A::e, "strain (TOSTRAIN)"),
+            word("RF", A::rf, "forces: loads and reactions (FORC)"),
+            word("PEEQ", A::peeq, "equivalent plastic strain (PE)"),
+            word("ENER", A::ener, "work per volume, stored and dissipated in the material (ENER)"),
+            word("CONTACT", A::contact,
+                 "gap, slip, pressure and shear at the slaves' nodes (CONTACT)"),
+            word("CELS", A::cels, "energies of the springs of the penalties there (CELS)")},
+           "[U, S, RF]"),
+       every_key(), steps_of_key()}};
 }
 
 BoundKeys<R> dat_keys() {
@@ -105,9 +109,10 @@ void check_answers(const Description& description) {
       throw core::InputError(request.mark, "SOF needs a set of facets: on");
   if (description.output.as_given)
     for (const R& request : description.output.frd)
-      if (std::ranges::find(request.of, Answer::contact) != request.of.end())
+      if (std::ranges::find(request.of, Answer::contact) != request.of.end() ||
+          std::ranges::find(request.of, Answer::cels) != request.of.end())
         throw core::InputError(request.mark,
-                               "CONTACT is of the solids that shells become: not with "
+                               "CONTACT and CELS are of the solids that shells become: not with "
                                "shells_as_given");
   for (const std::vector<R>* const list : {&description.output.frd, &description.output.dat})
     for (const R& request : *list)

@@ -33,7 +33,7 @@ std::vector<BoundKey<material::Orientation>> orientation_keys() {
            }}};
 }
 
-BoundKeys<material::Orientation> turned_orientation_keys() {
+std::vector<BoundKey<material::Orientation>> turned_orientation_keys() {
   using A = material::Orientation;
   const BoundKeys<A> turn(
       {{required("about", integer("Which of them: 1, 2 or 3.").at_least(1).at_most(3).such_as("3")),
@@ -44,11 +44,19 @@ BoundKeys<material::Orientation> turned_orientation_keys() {
   all.push_back(
       below(turn, optional("turn", turn.spec("The three axes are turned about one of them.")
                                        .such_as("{about: 3, angle: 30}"))));
-  return BoundKeys<A>(std::move(all));
+  return all;
 }
 
 BoundKey<Section> orientation_key() {
-  const BoundKeys<material::Orientation> keys = turned_orientation_keys();
+  std::vector<BoundKey<material::Orientation>> all = turned_orientation_keys();
+  all.push_back(
+      may(&material::Orientation::on_shell, "shell",
+          boolean("The third axis is the normal of the shell that the cells are a layer of (across "
+                  "the first two of their local directions), and the first one lies in the shell, "
+                  "as near to the one given as it can.")
+              .otherwise("false")
+              .such_as("true")));
+  const BoundKeys<material::Orientation> keys(std::move(all));
   return {optional("orientation",
                    keys.spec("Where the axes 1, 2 and 3 of an orthotropic or anisotropic material "
                              "point, in the undeformed body; without, they are x, y and z.")

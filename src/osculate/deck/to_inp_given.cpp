@@ -35,7 +35,8 @@ const std::string& path_of_deck(const Description& d) {
 }
 
 bool same_axes(const material::Orientation& a, const material::Orientation& b) {
-  return a.kind == b.kind && a.a == b.a && a.b == b.b && a.about == b.about && a.angle == b.angle;
+  return a.kind == b.kind && a.a == b.a && a.b == b.b && a.about == b.about && a.angle == b.angle &&
+         a.on_shell == b.on_shell;
 }
 
 bool is_of_mesh(const Card& card) {
@@ -147,6 +148,12 @@ std::string GivenMesh::sections(const std::vector<std::string>& axes) const {
     const std::vector<std::size_t> own = sections_of(card);
     if (own.empty()) continue;
     written.insert(own.begin(), own.end());
+    for (const std::size_t s : own)
+      if (!axes[s].empty() &&
+          d_.sections[s].orientation.value.on_shell != (card.keyword == "SHELLSECTION"))
+        refuse(s,
+               "is written as a section whose axes lie along it if it is one of shells, and "
+               "there alone (orientation: {..., shell: true})");
     const std::string& material = d_.sections[own[0]].material.value;
     const std::span<const io::inp::Line> lines = io::inp::lines_of(deck_, card);
     if (io::inp::is_layered(card)) {

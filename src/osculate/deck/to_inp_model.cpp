@@ -49,6 +49,9 @@ void write_sections(const Description& d, const model::BasicModel<Dim>& m, InpMe
     const std::string axes = write_orientation(section, s, leaves, out);
     all_axes.push_back(axes);
     if (mesh.given()) continue;
+    if (section.orientation.value.on_shell)
+      throw core::InputError(section.orientation.mark,
+                             "shell: true is not written: an input file has it of shells alone");
     out += fmt::format("*SOLID SECTION, ELSET={}, MATERIAL={}{}\n", mesh.elements(s),
                        section.material.value, axes);
     if (Dim == 2 && !is_round(m.sections[s].section))

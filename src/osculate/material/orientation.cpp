@@ -39,6 +39,13 @@ Mat<3, 3> axes_at(const Orientation& o, const Vec3& place) {
   return axes;
 }
 
+Mat<3, 3> axes_along_shell(const Mat<3, 3>& axes, const Vec3& normal) {
+  constexpr double across = 0.9999984769132877;  // the cosine of 0.1 degrees
+  const Eigen::Index led = std::abs(normal.dot(axes.col(0))) > across ? 2 : 0;
+  const Vec3 first = axes.col(led) - normal.dot(axes.col(led)) * normal;
+  return axes_along(first, normal.cross(first));
+}
+
 bool gives_axes(const Orientation& o) {
   switch (o.kind) {
     case Orientation::Kind::rectangular:

@@ -5,6 +5,7 @@
 
 #include "osculate/model/material_memory.hpp"
 #include "osculate/model/quantities.hpp"
+#include "osculate/solid/energy.hpp"
 
 namespace osculate::model {
 namespace {
@@ -102,6 +103,36 @@ BasicNodalFields<Dim> nodal_fields(const BasicSystem<Dim>& system, const BasicMo
 }
 
 template <int Dim>
+std::vector<double> nodal_work(const BasicSystem<Dim>& system, const BasicModel<Dim>& model,
+                               const BasicState<Dim>& state) {
+  std::vector<double> work(model.mesh.nodes.size(), 0.0);
+  std::vector<int> count(work.size(), 0);
+  for_each_cell(system.model(), [&](const auto& section, const mesh::CellRef& ref,
+                                    const CellMemory& m) {
+    if (m.removed) return;
+    const CellNodes cell = cell_nodes(model.mesh, ref);
+    const material::Memory of = m.of(state.memory);
+    const CellPlaces<Dim> at = places_of(model, section, cell.nodes, state.u, of);
+    const solid::Section<Dim>& here = section_on(section, cell.type);
+    const auto stress = solid::stress_at_points(here, cell.type, at.reference, at.displacement, of);
+    const auto energies = solid::point_energies<Dim>(here, cell.type, at.reference, stress, of);
+    Eigen::VectorXd of_points(stress.count);
+    for (Eigen::Index p = 0; p < of_points.size(); ++p) {
+      const solid::CellEnergy& energy = energies[static_cast<std::size_t>(p)];
+      of_points[p] = energy.stored + energy.dissipated;
+    }
+    const Eigen::MatrixXd nodal = solid::at_nodes(here, cell.type, of_points);
+    for (std::size_t k = 0; k < cell.nodes.size(); ++k) {
+      ++count[static_cast<std::size_t>(cell.nodes[k])];
+      work[static_cast<std::size_t>(cell.nodes[k])] += nodal(static_cast<Eigen::Index>(k), 0);
+    }
+  });
+  for (std::size_t i = 0; i < work.size(); ++i)
+    if (count[i] > 0) work[i] /= count[i];
+  return work;
+}
+
+template <int Dim>
 double largest_remembered(const BasicModel<Dim>& model, const BasicState<Dim>& state,
                           std::span<const Index> nodes, std::string_view name) {
   BasicNodalFields<Dim> f;
@@ -126,6 +157,8 @@ double largest_remembered(const BasicModel<Dim>& model, const BasicState<Dim>& s
 
 template NodalFields nodal_fields(const System&, const Model&, const State&);
 template NodalFields3 nodal_fields(const System3&, const Model3&, const State3&);
+template std::vector<double> nodal_work(const System&, const Model&, const State&);
+template std::vector<double> nodal_work(const System3&, const Model3&, const State3&);
 template double largest_remembered(const Model&, const State&, std::span<const Index>,
                                    std::string_view);
 template double largest_remembered(const Model3&, const State3&, std::span<const Index>,

@@ -27,6 +27,15 @@ template <int Dim>
                                                  const BasicModel<Dim>& model,
                                                  const BasicState<Dim>& state);
 
+/// Work per reference volume at the nodes, stored and dissipated in the material so far; averaged
+/// as the fields are.
+///
+/// Tested by  tests/unit/api/test_answers.cpp
+template <int Dim>
+[[nodiscard]] std::vector<double> nodal_work(const BasicSystem<Dim>& system,
+                                             const BasicModel<Dim>& model,
+                                             const BasicState<Dim>& state);
+
 /// A state that was reached, with its system, for all who write something of it: its results at
 /// the nodes are computed when the first of them asks. For as long as system and state are as they
 /// are.

@@ -10,11 +10,13 @@
 #include <ctime>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <set>
 
 #include "osculate/core/version.hpp"
 #include "osculate/model/fields.hpp"
 #include "osculate/model/quantities.hpp"
+#include "osculate/result/answer_sums.hpp"
 #include "osculate/result/result_folder.hpp"
 
 namespace osculate::result {
@@ -41,6 +43,10 @@ std::vector<std::string_view> names_of(Answer what) {
       return {"FORC", "F1", "F2", "F3"};
     case Answer::peeq:
       return {"PE", "PE"};
+    case Answer::ener:
+      return {"ENER", "ENER"};
+    case Answer::cels:
+      return {"CELS", "CELS"};
     default:
       return {"CONTACT", "COPEN", "CSLIP1", "CSLIP2", "CPRESS", "CSHEAR1", "CSHEAR2"};
   }
@@ -93,8 +99,9 @@ std::vector<double> told_of(const AnswerModel<Dim>& answers, Index node, const V
 template <int Dim>
 std::vector<double> field_values(Answer what, const AnswerModel<Dim>& answers,
                                  const std::vector<Index>& nodes,
-                                 const model::BasicSystem<Dim>& system,
-                                 const model::BasicNodalFields<Dim>& f) {
+                                 const model::BasicReached<Dim>& reached) {
+  const model::BasicSystem<Dim>& system = reached.system;
+  const model::BasicNodalFields<Dim>& f = reached.fields();
   const auto in = [](const auto& field) {
     return [&field](Index n) { return field[static_cast<std::size_t>(n)]; };
   };
@@ -104,6 +111,17 @@ std::vector<double> field_values(Answer what, const AnswerModel<Dim>& answers,
     for (const NodeContact& c : node_contacts(system, answers.model))
       values[static_cast<std::size_t>(c.node)] = c.values;
     for (const Index n : nodes) column.add(values[static_cast<std::size_t>(n)]);
+    return column.values();
+  }
+  if (what == Answer::cels) {
+    std::map<Index, double> energies = contact_energies(system, answers.model).of_nodes;
+    for (const Index n : nodes) column.add(std::array{answers.sector * energies[n]});
+    return column.values();
+  }
+  if (what == Answer::ener) {
+    const std::vector<double> work = model::nodal_work(system, answers.model, reached.state);
+    const auto work_at = [&](Index n) { return std::array{work[static_cast<std::size_t>(n)]}; };
+    for (const Index n : nodes) column.add(told_of(answers, n, work_at));
     return column.values();
   }
   const auto plastic = std::ranges::find(f.memory, "PEEQ", [](const auto& m) { return m.first; });
@@ -270,13 +288,12 @@ void AnswerFiles<Dim>::write_fields(const model::BasicReached<Dim>& reached,
   for (const deck::AnswerRequest& request : output_.frd)
     if (is_due(request, step, progress)) wanted.insert(request.of.begin(), request.of.end());
   if (wanted.empty()) return;
-  const model::BasicSystem<Dim>& system = reached.system;
-  const model::BasicNodalFields<Dim>& f = reached.fields();
   if (!part || !part->imaginary) ++sets_;
   const int step_number = static_cast<int>(progress.step) + 1;
-  for (const Answer what :
-       {Answer::u, Answer::s, Answer::e, Answer::rf, Answer::peeq, Answer::contact}) {
+  for (const Answer what : {Answer::u, Answer::s, Answer::e, Answer::rf, Answer::peeq, Answer::ener,
+                            Answer::contact, Answer::cels}) {
     if (!wanted.contains(what)) continue;
+    if (part && (what == Answer::ener || what == Answer::cels)) continue;  // of no single moment
     io::FrdTime at{++pieces_, static_cast<int>(progress.increment), step_number, sets_,
                    time_of(progress.step, progress.fraction)};
     std::vector<std::string_view> names = names_of(what);
@@ -289,7 +306,7 @@ void AnswerFiles<Dim>::write_fields(const model::BasicReached<Dim>& reached,
     }
     names.front() = name;
     frd_.append(io::frd_field(shown_, at, what == Answer::u || what == Answer::rf, names,
-                              field_values(what, answers_, shown_.nodes, system, f)));
+                              field_values(what, answers_, shown_.nodes, reached)));
   }
 }
 

@@ -26,7 +26,14 @@ Mat<3, 3> axes_at_point(const Section<Dim>& section, CellType type,
   const Shape<Dim> shape = shape_at_point(section, type, point);
   Vec3 place = Vec3::Zero();
   place.head<Dim>() = reference.transpose() * shape.n.head(shape.count);
-  return material::axes_at(section.orientation, place);
+  const Mat<3, 3> axes = material::axes_at(section.orientation, place);
+  if constexpr (Dim == 3) {
+    if (section.orientation.on_shell) {
+      const Mat<3, 3> along = reference.transpose() * shape.d.topRows(shape.count);
+      return material::axes_along_shell(axes, along.col(0).cross(along.col(1)).normalized());
+    }
+  }
+  return axes;
 }
 
 }  // namespace

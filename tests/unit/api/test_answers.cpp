@@ -28,7 +28,7 @@ constexpr const char* space =
     "ux: 0.02, uy: 0, uz: 0}]}\n"
     "  - {name: more, increments: 2, duration: 3, prescribe: [{on: b.right, ux: 0.04}]}\n"
     "output:\n"
-    "  frd: [{of: [U, S, E, RF, PEEQ], every: 3, steps: [pull]}, {of: [U], steps: [more]}]\n"
+    "  frd: [{of: [U, S, E, RF, PEEQ, ENER], every: 3, steps: [pull]}, {of: [U], steps: [more]}]\n"
     "  dat:\n"
     "    - {on: b.right, of: [U, RF], totals: also, every: 4, steps: [pull]}\n"
     "    - {on: b, of: [S, ENER, EVOL, ELSE], every: 4, totals: also, steps: [pull]}\n"
@@ -45,7 +45,7 @@ constexpr const char* ring =
     "reference_area}]\n"
     "steps: [{name: press, increments: 1, prescribe: [{on: b, ux: 0}, {on: b.top, uy: -0.01}]}]\n"
     "output:\n"
-    "  frd: [{of: [CONTACT, RF]}]\n"
+    "  frd: [{of: [CONTACT, CELS, RF]}]\n"
     "  dat: [{on: b, of: [EVOL]}, {on: b.top, of: [RF], totals: only}, {of: [CSTR, CNUM]}]\n";
 
 struct Answers : ::testing::Test {
@@ -98,6 +98,19 @@ std::vector<std::vector<double>> rows(const std::string& text, const std::string
   return out;
 }
 
+/// The values of a field of one component, from its header on.
+std::vector<double> numbers_at_nodes(const std::string& field) {
+  std::vector<double> out;
+  std::istringstream lines(field);
+  std::string line;
+  std::getline(lines, line);
+  std::getline(lines, line);
+  constexpr std::size_t behind_the_number = 13;
+  while (std::getline(lines, line) && line.starts_with(" -1"))
+    out.push_back(std::stod(line.substr(behind_the_number)));
+  return out;
+}
+
 TEST_F(Answers, TablesOfAPulledBlockHaveItsClosedSolution) {
   ASSERT_EQ(run(options("block", space)).status, RunStatus::done);
   const std::string dat = read("block.dat");
@@ -134,11 +147,14 @@ TEST_F(Answers, FieldsAreWrittenWhenTheyAreDue) {
   EXPECT_TRUE(frd.ends_with(" -3\n 9999\n"));
   EXPECT_EQ(count(frd, " -4  STRESS"), 2U);  // increments 3 and 4 of the first step
   EXPECT_EQ(count(frd, " -4  DISP"), 4U);
-  EXPECT_EQ(count(frd, "    1PSTEP"), 12U);
+  EXPECT_EQ(count(frd, "    1PSTEP"), 14U);
   EXPECT_EQ(count(frd,
-                  "    1PSTEP                        12           2           2          \n"
+                  "    1PSTEP                        14           2           2          \n"
                   "  100CL  104 4.000000000          12"),
             1U);
+  const std::vector<double> work = numbers_at_nodes(frd.substr(frd.rfind(" -4  ENER")));
+  ASSERT_EQ(work.size(), 12U);
+  for (const double value : work) EXPECT_NEAR(value, 0.005, 1e-7);  // 100 x 0.01^2 / 2
   EXPECT_EQ(count(read("block.sta"), "\n"), 2U + 6U);
   EXPECT_THAT(read("block.sta"), HasSubstr("     2          1     1"));
   EXPECT_THAT(read("block.sta"), HasSubstr("  0.250000E+01  0.150000E+01  0.150000E+01\n"));
@@ -320,6 +336,10 @@ TEST_F(Answers, EnergiesOfContactsAreThoseOfTheirSprings) {
   ASSERT_EQ(of_nodes.size(), 2U);
   EXPECT_NEAR(of_nodes[0][1] + of_nodes[1][1], energy, 1e-6 * energy);
   EXPECT_NEAR(rows(dat, " total contact spring energy for time")[0][0], energy, 1e-6 * energy);
+  const std::string frd = read("ring.frd");
+  double sum = 0;
+  for (const double value : numbers_at_nodes(frd.substr(frd.find(" -4  CELS")))) sum += value;
+  EXPECT_NEAR(sum, energy, 1e-5 * energy);
 }
 
 /// Vibrations and buckling take no time: 2 and 3 are all there is, as in CalculiX.

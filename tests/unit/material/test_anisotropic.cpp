@@ -243,5 +243,21 @@ TEST(Orientation, PointsAlongAndAroundAndMayBeTurned) {
   EXPECT_LT((wound.col(2) - Vec3::UnitX()).norm(), 1e-15);
 }
 
+TEST(Orientation, IsLaidOntoAShell) {
+  const Vec3 normal = Vec3(1, 2, -0.5).normalized();
+  const Mat<3, 3> axes = axes_at({Orientation::Kind::rectangular, {2, 1, 0}, {0, 1, 3}}, {});
+  const Mat<3, 3> laid = axes_along_shell(axes, normal);
+  EXPECT_LT((laid.transpose() * laid - Mat<3, 3>::Identity()).norm(), 1e-14);
+  EXPECT_NEAR(laid.determinant(), 1, 1e-14);
+  EXPECT_LT((laid.col(2) - normal).norm(), 1e-15);
+  // no direction of the shell is nearer to the first axis than the first one of these
+  EXPECT_NEAR(laid.col(1).dot(axes.col(0)), 0, 1e-15);
+  EXPECT_GT(laid.col(0).dot(axes.col(0)), 0.5);
+  EXPECT_LT((axes_along_shell(laid, normal) - laid).norm(), 1e-15);
+  // where it is the normal, the third one leads
+  const Mat<3, 3> led = axes_along_shell(axes, axes.col(0));
+  EXPECT_LT((led.col(0) - axes.col(2)).norm(), 1e-15);
+}
+
 }  // namespace
 }  // namespace osculate::material

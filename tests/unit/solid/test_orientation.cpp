@@ -4,6 +4,7 @@
 #include "cell_cases.hpp"
 #include "derivative_check.hpp"
 #include "osculate/solid/point_axes.hpp"
+#include "osculate/solid/points.hpp"
 
 namespace osculate::solid::testing {
 namespace {
@@ -125,6 +126,17 @@ TEST(Orientation, IsThatOfThePlaceOfEachPoint) {
   for (std::size_t q = 0; q < static_cast<std::size_t>(at.count); ++q) {
     const Eigen::Map<const Mat<3, 3>> here(memory.at(q).axes);
     EXPECT_LT((here - material::axes_at(s.orientation, at.point[q].position)).norm(), 1e-14);
+  }
+  s.orientation.on_shell = true;
+  const PointAxes<3> laid(s, cell::CellType::hex20, x);
+  for (std::size_t q = 0; q < static_cast<std::size_t>(at.count); ++q) {
+    const Eigen::Map<const Mat<3, 3>> here(laid.in({}).at(q).axes);
+    const auto& shape = rule_of<3>(cell::CellType::hex20).shape[q];
+    const Mat<3, 3> along = x.transpose() * shape.d.topRows(shape.count);
+    EXPECT_NEAR(here.col(2).dot(along.col(0)), 0, 1e-14);
+    EXPECT_NEAR(here.col(2).dot(along.col(1)), 0, 1e-14);
+    EXPECT_GT(here.col(2).dot(along.col(2)), 0);
+    EXPECT_GT(here.col(0).dot(material::axes_at(s.orientation, at.point[q].position).col(0)), 0);
   }
   s.law = material::LinearElastic{7, 0.3, 0};
   EXPECT_EQ(PointAxes<3>(s, cell::CellType::hex20, x).in({}).axes, nullptr);  // needs none
