@@ -10,7 +10,9 @@ using CompressedRows = Eigen::SparseMatrix<double, Eigen::RowMajor, Index>;
 
 [[nodiscard]] constexpr std::size_t as_size(Index i) { return static_cast<std::size_t>(i); }
 
-/// The matrix with both triangles; entries that are zero are left out, but for the diagonal.
+/// The matrix with both triangles; entries that are zero are left out, but for the diagonal. The
+/// room of what `a` was is taken where it suffices.
+void compress(const SparseMatrix& k, Symmetry symmetry, CompressedRows& a);
 [[nodiscard]] CompressedRows compressed(const SparseMatrix& k, Symmetry symmetry);
 [[nodiscard]] SparseMatrix stored(const CompressedRows& a);
 

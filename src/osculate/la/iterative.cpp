@@ -153,7 +153,7 @@ struct Iterative::Impl {
   Impl& operator=(const Impl&) = delete;
 
   [[nodiscard]] bool suits(const SparseMatrix& k) const;
-  bool build(CompressedRows a);
+  bool build(CompressedRows&& a);
   bool refresh(const SparseMatrix& k);
   [[nodiscard]] bool resists_all();
   bool iterate(Eigen::VectorXd& rhs);
@@ -173,7 +173,7 @@ bool Iterative::Impl::suits(const SparseMatrix& k) const {
 }
 
 /// False: the direct solver is to look at the matrix.
-bool Iterative::Impl::build(CompressedRows a) {
+bool Iterative::Impl::build(CompressedRows&& a) {
   fresh = true;
   anew = false;
   first_pace = 0;
@@ -214,8 +214,7 @@ bool Iterative::Impl::refresh(const SparseMatrix& k) {
   constexpr double slower = 1.5;
   if (anew || !by_multigrid || !bodies || pace > slower * first_pace) return false;
   fresh = false;
-  CompressedRows a = compressed(k, symmetry);
-  return exact.factor(a, places, symmetry, options) && bodies->refresh(std::move(a));
+  return bodies->refresh(k, symmetry) && exact.factor(bodies->matrix(), places, symmetry, options);
 }
 
 FactorReport Iterative::Impl::factor_directly(const SparseMatrix& k) {

@@ -174,13 +174,16 @@ bool Multigrid::Impl::coarsen() {
   Tentative next = tentative(fine, aggregates);
   const Index unknowns = next.start.back();
   if (unknowns == 0 || unknowns > hardly * static_cast<double>(fine.a.rows())) return false;
-  const CompressedRows spread = product(fine.a, next.p, threads);
-  const CompressedRows scaled = product(fine.inverse.as_matrix(), spread, threads);
-  fine.p = next.p - (damping / fine.largest) * scaled;
-  fine.p.makeCompressed();
+  {
+    const CompressedRows spread = product(fine.a, next.p, threads);
+    const CompressedRows scaled = product(fine.inverse.as_matrix(), spread, threads);
+    fine.p = next.p - (damping / fine.largest) * scaled;
+    fine.p.makeCompressed();
+  }
   fine.transposed = fine.p.transpose();
   auto coarse = std::make_unique<Level>();
-  coarse->a = product(fine.transposed, product(fine.a, fine.p, threads), threads);
+  CompressedRows a = product(fine.transposed, product(fine.a, fine.p, threads), threads);
+  coarse->a.swap(a);
   coarse->start = std::move(next.start);
   coarse->near_null = std::move(next.near_null);
   fine.near_null = {};
@@ -193,13 +196,13 @@ Multigrid::Multigrid(int threads) : impl_(std::make_unique<Impl>()) {
 }
 Multigrid::~Multigrid() = default;
 
-bool Multigrid::build(CompressedRows a, GroupStarts groups, Eigen::MatrixXd near_null) {
+bool Multigrid::build(CompressedRows&& a, GroupStarts groups, Eigen::MatrixXd near_null) {
   constexpr Index coarsest = 1500;
   constexpr std::size_t most_levels = 12;
   Impl& s = *impl_;
   forget();
   s.levels.push_back(std::make_unique<Level>());
-  s.levels[0]->a = std::move(a);
+  s.levels[0]->a.swap(a);  // matrices of Eigen are copied where they are moved
   s.levels[0]->start = std::move(groups);
   s.levels[0]->near_null = std::move(near_null);
   while (s.levels.back()->a.rows() > coarsest && s.levels.size() < most_levels) {
@@ -212,10 +215,10 @@ bool Multigrid::build(CompressedRows a, GroupStarts groups, Eigen::MatrixXd near
   return report.status == SolveStatus::ok;
 }
 
-bool Multigrid::refresh(CompressedRows a) {
+bool Multigrid::refresh(const SparseMatrix& k, Symmetry symmetry) {
   Impl& s = *impl_;
-  if (!s.coarsest || s.levels.size() < 2 || s.levels[0]->a.rows() != a.rows()) return false;
-  s.levels[0]->a = std::move(a);
+  if (!s.coarsest || s.levels.size() < 2 || s.levels[0]->a.rows() != k.n) return false;
+  compress(k, symmetry, s.levels[0]->a);
   return s.levels[0]->prepare_smoother(s.threads);
 }
 

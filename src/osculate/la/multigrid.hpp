@@ -29,10 +29,10 @@ class Multigrid {
   ///
   /// Shapes     near_null: a row per unknown. Unknowns of rows of zeros are in no coarser model;
   ///            groups whose block is not positive definite are not smoothed either
-  bool build(CompressedRows a, GroupStarts groups, Eigen::MatrixXd near_null);
+  bool build(CompressedRows&& a, GroupStarts groups, Eigen::MatrixXd near_null);
   /// Takes another matrix of the same unknowns, near to the one that it was built of: the coarser
   /// models stay. False: it has to be built.
-  bool refresh(CompressedRows a);
+  bool refresh(const SparseMatrix& k, Symmetry symmetry);
   /// The matrix that it was given last.
   [[nodiscard]] const CompressedRows& matrix() const;
   /// One cycle from zero. False: no numbers came out.

@@ -78,6 +78,14 @@ TEST(MaterialAxes, InThePlaneOneIsAcrossIt) {
   EXPECT_EQ(problem(model(crystal, "", true)), "");
 }
 
+TEST(MaterialAxes, LieOnLayersOfBricksAndWedges) {
+  const std::string on_shell = ", orientation: {cylindrical: {from: [3, 3, 0]}, shell: true}";
+  EXPECT_EQ(problem(model(wood, on_shell, true)), "");
+  EXPECT_EQ(problem(model(wood, on_shell, false)),
+            "model.yaml:4: sections[0].orientation: shell: true is for layers of bricks or wedges, "
+            "and set 'b' has quad4 cells");
+}
+
 TEST(MaterialAxes, WithoutEffectAreToldOf) {
   const Built b = built(model("{linear_elastic: {E: 1, nu: 0.3}}",
                               ", orientation: {cylindrical: {from: [3, 3]}}", false));
