@@ -132,6 +132,30 @@ class Points(unittest.TestCase):
         with self.assertRaisesRegex(Refused, "does not exist"):
             ContactPoint(np.zeros((3, 2)), master=Surface([("line2", [[1, 7]])]), normal={"penalty": 1.0})
 
+    def test_the_normal_tangent_is_the_spring_less_what_the_foot_follows(self):
+        # [eq:KSVD:55] [eq:KSVD:56] [eq:KSVD:57] [eq:KSVD:58] docs/theory_contact.md, section 6:
+        # eps (A^T A - b_i g^ij b_j^T), and what the parts of the papers lack of it: -N gap Q_i g^ij Q_j^T with
+        # Q_i = D_i - h_i^k W_k
+        x = surface()[1][:5]
+        point = ContactPoint(x, master=Surface([("quad4", [[1, 2, 3, 4]])]), normal={"penalty": PENALTY})
+        now = point.at(x)
+        (a, b), (sa, sb) = now.xi, np.array([[-1, 1, 1, -1], [-1, -1, 1, 1]])
+        weights = np.array([np.concatenate(([first], -0.25 * n)) for first, n in (
+            (1, (1 + sa * a) * (1 + sb * b)), (0, sa * (1 + sb * b)), (0, (1 + sa * a) * sb), (0, sa * sb))])
+        of = [np.kron(w, np.eye(3)) for w in weights]  # A, A_1, A_2, A_12
+        twist = -(weights[3] @ x) @ now.normal  # h_12
+        metric, bend = now.base @ now.base.T, np.array([[0, twist], [twist, 0]])
+        offset = metric - now.gap * bend
+        along = np.array([of[0].T @ r for r in now.base])  # W_i
+        turning = np.array([m.T @ now.normal for m in of[1:3]])  # D_i
+        followed, lacking = along - now.gap * turning, turning - bend @ np.linalg.solve(metric, along)
+        self.assertGreater(abs(now.gap * twist), 1e-4)
+        np.testing.assert_allclose(
+            now.tangent, PENALTY * (of[0].T @ of[0] - followed.T @ np.linalg.solve(offset, followed)), atol=1e-10)
+        np.testing.assert_allclose(
+            now.tangent - (now.main + now.rotational + now.bending),
+            -PENALTY * now.gap**2 * lacking.T @ np.linalg.solve(offset, lacking), atol=1e-10)
+
 
 if __name__ == "__main__":
     unittest.main()

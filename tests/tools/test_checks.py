@@ -123,10 +123,16 @@ class Equations(Tree):
         self.write("src/osculate/core/a.hpp", "// @eq KS2D:1, KS2D:2a\n")
         self.write("tests/unit/core/t.cpp", "// [eq:KS2D:1] [eq:KS2D:2a]\n")
         self.write("docs/references.bib", "@book{KS2D,\n}\n")
+        self.write("docs/theory.md", "# T\n\n## 1. Metric\n\n(KS2D:1)\n\n## 2. The gap\n\n(KS2D:1, KS2D:2a)\n")
 
     def problems(self):
         return check_equations.check(equations.tags(self.root), equations.mentions(self.root),
-                                     check_equations.bib_keys(self.root))
+                                     check_equations.bib_keys(self.root), check_equations.explained(self.root),
+                                     check_equations.corrected(self.root))
+
+    def table(self):
+        return check_equations.table(equations.tags(self.root), equations.mentions(self.root),
+                                     check_equations.explained(self.root), set())
 
     def test_all_is_well(self):
         self.assertEqual(self.problems(), [])
@@ -143,10 +149,25 @@ class Equations(Tree):
         self.write("docs/references.bib", "@book{Other,\n}\n")
         self.assertIn("cites no entry", self.problems()[0])
 
+    def test_an_equation_that_the_manual_leaves_out_is_reported(self):
+        self.write("docs/theory.md", "(KS2D:1, KS2D:2a)\n\n## 1. Metric\n\n(KS2D:1)\n")  # 2a stands in no section
+        self.assertEqual(len(self.problems()), 1)
+        self.assertIn("KS2D:2a is in no section", self.problems()[0])
+
+    def test_so_is_a_corrected_one_without_a_tag(self):
+        self.write("docs/errata.md", "| KS2D:1, KS2D:7 to KS2D:9 | sign |\n| none | KS2D:5 |\n")
+        self.assertEqual(["errata.md: KS2D:" in p for p in self.problems()], [True, True, True])
+        self.write("docs/theory_b.md", "## 3. Rates\n\n(KS2D:7 to KS2D:9)\n")
+        self.assertEqual(self.problems(), [])
+
+    def test_the_table_leads_to_the_first_section_that_names_an_equation(self):
+        self.assertIn("| KS2D:1 |  | [1](theory.md#1-metric) |", self.table())
+        self.assertIn("| KS2D:2a |  | [2](theory.md#2-the-gap) |", self.table())
+
     def test_only_line_numbers_may_be_out_of_date(self):
-        table = check_equations.table(equations.tags(self.root), equations.mentions(self.root), set())
+        table = self.table()
         self.write("src/osculate/core/a.hpp", "\n\n// @eq KS2D:1, KS2D:2a\n")
-        later = check_equations.table(equations.tags(self.root), equations.mentions(self.root), set())
+        later = self.table()
         self.assertNotEqual(table, later)
         self.assertEqual(*map(check_equations.without_lines, (table, later)))
 
