@@ -48,7 +48,7 @@ template <int Dim>
 
 /// Exact consistent tangent: every formula is the derivative of `point_forces`.
 ///
-/// Formula    frictionless, surface: eps [A^T A - (W_i + gap D_i) g^ij (W_j + gap D_j)^T], W_i =
+/// Formula    frictionless, surface: eps [A^T A - (W_i - gap D_i) g^ij (W_j - gap D_j)^T], W_i =
 ///            A^T rho_,i, D_i = A_,i^T n (docs/errata.md)
 /// Source     docs/errata.md (exact form of KS2D:54, 56, 58 and KSVD:55-58); `full` from KS2D:39
 ///            and KSVD:33
