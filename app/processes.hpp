@@ -15,7 +15,8 @@ struct ProcessEnd {
 /// hands what they return to `take` as they end: one that crashes takes no other with it. None of
 /// them outlives this process.
 ///
-/// Input      interrupts: how often an end was asked for (may be empty): from the first time on none
+/// Input      interrupts: how often an end was asked for (may be empty): from the first time on
+/// none
 ///            is started, and each time those under way get SIGTERM
 /// Errors     core::InputError where the system gives no process
 void run_processes(std::size_t count, int jobs, const std::function<std::string(std::size_t)>& work,
