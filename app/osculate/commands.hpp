@@ -16,6 +16,8 @@ namespace osculate::app {
 /// FILE:SET, or another output.
 void keep_inputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs);
 
+/// Adds `--max-iterations` and `--max-minutes` of a run.
+void add_limits(CLI::App& command, api::RunOptions& options);
 /// Adds `--set NAME=VALUE`, which may be given several times.
 void add_settings(CLI::App& command, std::vector<std::string>& texts);
 /// What was given so. Throws core::InputError for what is no NAME=VALUE and for a name given twice.
@@ -27,6 +29,7 @@ void add_settings(CLI::App& command, std::vector<std::string>& texts);
 // One file a command. Each adds its subcommand; the callback stores the exit code.
 void add_init(CLI::App& app, int& exit_code);
 void add_run(CLI::App& app, int& exit_code);
+void add_study(CLI::App& app, int& exit_code);
 void add_check(CLI::App& app, int& exit_code);
 void add_tangent(CLI::App& app, int& exit_code);
 void add_verify(CLI::App& app, int& exit_code);

@@ -9,13 +9,13 @@ namespace osculate::app {
 
 void add_compare(CLI::App& app, int& exit_code) {
   CLI::App* const command = app.add_subcommand(
-      "compare", "Say how far two result folders are apart, quantity by quantity");
+      "compare", "Say how far two result folders, or .frd files, are apart, quantity by quantity");
   struct Flags {
     std::string a, b;
     double tolerance = std::numeric_limits<double>::infinity();
   };
   auto flags = std::make_shared<Flags>();
-  command->add_option("a", flags->a, "Result folder")->required();
+  command->add_option("a", flags->a, "Result folder, or .frd file")->required();
   command->add_option("b", flags->b, "The one beside it")->required();
   command
       ->add_option("--tolerance", flags->tolerance,

@@ -17,6 +17,7 @@ int run_program(int argc, char** argv) {
   int exit_code = done;
   add_init(app, exit_code);
   add_run(app, exit_code);
+  add_study(app, exit_code);
   add_check(app, exit_code);
   add_tangent(app, exit_code);
   add_verify(app, exit_code);

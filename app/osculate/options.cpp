@@ -19,6 +19,18 @@ CLI::Validator finite() {
           "", "finite"};
 }
 
+void add_limits(CLI::App& command, api::RunOptions& options) {
+  command
+      .add_option("--max-iterations", options.max_iterations,
+                  "Stop after so many iterations of all increments together (exit code 3)")
+      ->check(CLI::Range(1, 1'000'000'000));
+  command
+      .add_option("--max-minutes", options.max_minutes,
+                  "Stop after so many minutes, between two iterations (exit code 3)")
+      ->check(finite())
+      ->check(CLI::PositiveNumber);
+}
+
 void add_settings(CLI::App& command, std::vector<std::string>& texts) {
   command
       .add_option("--set", texts,

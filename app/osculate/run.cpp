@@ -98,15 +98,7 @@ void add_run(CLI::App& app, int& exit_code) {
   command->add_flag("--quiet", flags->quiet, "Print nothing but errors");
   command->add_flag("--restart", flags->options.restart,
                     "Go on from the last checkpoint in the result folder");
-  command
-      ->add_option("--max-iterations", flags->options.max_iterations,
-                   "Stop after so many iterations of all increments together (exit code 3)")
-      ->check(CLI::Range(1, 1'000'000'000));
-  command
-      ->add_option("--max-minutes", flags->options.max_minutes,
-                   "Stop after so many minutes, between two iterations (exit code 3)")
-      ->check(finite())
-      ->check(CLI::PositiveNumber);
+  add_limits(*command, flags->options);
   add_settings(*command, flags->settings);
   command->callback([flags, &exit_code] { exit_code = run(*flags); });
 }

@@ -6,17 +6,18 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <thread>
 
 #include "../../verification/case.hpp"
+#include "../processes.hpp"
 #include "../program.hpp"
 #include "osculate/core/error.hpp"
 #include "osculate/core/text.hpp"
 #include "osculate/core/version.hpp"
 #include "osculate/io/atomic_file.hpp"
-#include "processes.hpp"
 
 namespace osculate::app {
 namespace {
@@ -163,9 +164,14 @@ int verify(const VerifyOptions& options) {
       out.push_back(std::move(row));
     }
   };
+  std::map<std::size_t, ProcessEnd> ended;  // those behind one that is still under way
+  std::size_t next = 0;
   run_processes(
       cases.size(), options.jobs,
-      [&](std::size_t i) { return run_case(*cases[i], options, folder).dump(); }, take);
+      [&](std::size_t i) { return run_case(*cases[i], options, folder).dump(); },
+      [&](std::size_t i, const ProcessEnd& end) {
+        for (ended.emplace(i, end); ended.contains(next); ++next) take(next, ended.at(next));
+      });
   if (json) {
     json->write(out.dump(1) + "\n");
     json->commit();

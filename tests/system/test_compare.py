@@ -19,10 +19,10 @@ output: {fields: 1, history: [{on: c, of: normal_force}, {on: block.top, of: COL
 """
 
 
-def run(folder, name, down="-0.01", increments=2, column="rfy"):
+def run(folder, name, down="-0.01", increments=2, column="rfy", more="}\n"):
     path = os.path.join(folder, name + ".yaml")
     with open(path, "w") as file:
-        file.write(MODEL.replace("DOWN", down).replace("INCREMENTS", str(increments)).replace("COLUMN", column))
+        file.write(MODEL.replace("DOWN", down).replace("INCREMENTS", str(increments)).replace("COLUMN", column).replace("]}\n", "]" + more))
     subprocess.run([PROGRAM, "run", path, "--quiet", "-o", os.path.join(folder, name + ".results")], check=True, capture_output=True)
     return os.path.join(folder, name + ".results")
 
@@ -132,6 +132,92 @@ class Compare(unittest.TestCase):
         self.assertEqual(result.returncode, 2)
         self.assertIn("history.csv", result.stderr)
         self.assertEqual(compare(self.a, self.b, "--tolerance", "-1").returncode, 2)
+
+
+class ResultFilesOfCalculiX(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.mkdtemp()
+        files = ", frd: [{of: [U, S]}]}\n"
+        cls.a = run(cls.folder, "a", more=files)
+        cls.b = run(cls.folder, "b", down="-0.011", more=files)
+        cls.finer = run(cls.folder, "finer", increments=4, more=files)
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.folder)
+
+    def file(self, name):
+        return os.path.join(self.folder, name + ".results", name + ".frd")
+
+    def changed(self, old, new):
+        with open(self.file("a")) as file:
+            text = file.read()
+        self.assertIn(old, text)
+        path = os.path.join(self.folder, f"changed{len(os.listdir(self.folder))}.frd")
+        with open(path, "w") as file:
+            file.write(text.replace(old, new))
+        return path
+
+    def test_files_and_folders_with_one(self):
+        for pair in ((self.file("a"), self.file("a")), (self.a, self.file("a")), (self.file("a"), self.a)):
+            result = compare(*pair, "--tolerance", "0")
+            self.assertEqual(result.returncode, 0, result.stdout)
+            self.assertEqual({name: row[0] for name, row in table(result.stdout).items()}, {"DISP": 0, "STRESS": 0})
+
+    def test_another_load_is_told_by_its_share(self):
+        result = compare(self.a, self.file("b"))
+        self.assertEqual(result.returncode, 0)
+        self.assertTrue(result.stdout.startswith("2 increments in both\n"), result.stdout)
+        for name, row in table(result.stdout).items():
+            self.assertAlmostEqual(row[2], 0.1 / 1.1, delta=0.002, msg=name)
+        self.assertAlmostEqual(table(result.stdout)["DISP"][0], 0.001, delta=1e-7)
+        self.assertEqual(compare(self.a, self.file("b"), "--tolerance", "0.2").returncode, 0)
+        self.assertEqual(compare(self.a, self.file("b"), "--tolerance", "0.05").returncode, 1)
+
+    def test_times_are_those_of_both(self):
+        result = compare(self.a, self.file("finer"), "--tolerance", "1e-4")
+        self.assertEqual(result.returncode, 0, result.stdout)
+        self.assertIn("2 increments in both", result.stdout)
+        self.assertIn(f"only {self.file('finer')} has 2 further times", result.stdout)
+
+    def test_what_one_lacks_is_no_agreement(self):
+        for path, says in ((self.changed(" -4  STRESS ", " -4  STRAIN "), "has the results STRESS"),
+                           (self.changed("1.000000000", "2.000000000"), "has 1 further times"),
+                           (self.changed(" -1         1 0.00000E+00", " -1         1 1.00000E+00"), "1 nodes of")):
+            for pair in ((self.file("a"), path), (path, self.file("a"))):
+                result = compare(*pair, "--tolerance", "1e300")
+                self.assertEqual(result.returncode, 1, result.stdout)
+                self.assertIn(says, result.stdout)
+
+    def test_what_cannot_be_read_is_bad_input(self):
+        empty = os.path.join(self.folder, "empty")
+        os.makedirs(empty, exist_ok=True)
+        self.assertIn("has not one .frd file", compare(self.file("a"), empty).stderr)
+        path = self.changed(" -4  STRESS ", " -4")
+        with open(path, "rb") as file:
+            os.truncate(path, file.read().rfind(b" -3"))
+        result = compare(self.file("a"), path)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("ends within a block", result.stderr)
+
+    @unittest.skipUnless(shutil.which("ccx"), "ccx is not installed")
+    def test_beside_ccx(self):
+        deck = """*NODE, NSET=ALL
+1, 0, 0, 0\n2, 1, 0, 0\n3, 1, 1, 0\n4, 0, 1, 0\n5, 0, 0, 1\n6, 1, 0, 1\n7, 1, 1, 1\n8, 0, 1, 1
+*ELEMENT, TYPE=C3D8, ELSET=E\n1, 1, 2, 3, 4, 5, 6, 7, 8
+*MATERIAL, NAME=M\n*ELASTIC\n1000, 0.3\n*SOLID SECTION, ELSET=E, MATERIAL=M
+*BOUNDARY\n1, 1, 3\n2, 2, 3\n3, 3\n4, 1\n4, 3
+*STEP\n*STATIC\n*CLOAD\n5, 3, 1\n6, 3, 1\n7, 3, 1\n8, 3, 3\n*NODE FILE\nU\n*EL FILE\nS\n*END STEP
+"""
+        for name, command in (("theirs", ["ccx"]), ("ours", [PROGRAM, "ccx"])):
+            with open(os.path.join(self.folder, name + ".inp"), "w") as file:
+                file.write(deck)
+            subprocess.run([*command, "-i", name], cwd=self.folder, check=True, capture_output=True)
+        result = compare(os.path.join(self.folder, "theirs.frd"), os.path.join(self.folder, "ours.frd"), "--tolerance", "3e-5")
+        self.assertEqual(result.returncode, 0, result.stdout)
+        self.assertEqual(set(table(result.stdout)), {"DISP", "STRESS"})
+        self.assertGreater(table(result.stdout)["DISP"][1], 1e-3)
 
 
 if __name__ == "__main__":

@@ -316,6 +316,7 @@ class Program(unittest.TestCase):
         self.assertEqual(run["parameters"], {"side": "0.2"})
         check = json.loads(self.run_program("check", "--set", "side=0.25", name, "--json").stdout)
         self.assertAlmostEqual(check["steps"][0]["total"]["force"][0], 2)
+        self.assertEqual(self.text("model.results/history.csv").split("\n")[0].split(","), ["step", "increment", "time"] + check["history"])
         self.assertEqual(self.run_program("tangent", name, "--set", "side=0.2").returncode, 0)
         for wrong, said in (("sid=1", "did you mean 'side'?"), ("side", "expected NAME=VALUE"),
                             ("side=x", "expected a number, got the text 'x'")):

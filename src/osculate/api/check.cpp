@@ -117,10 +117,13 @@ CheckReport check_built(const std::string& path, const deck::Description& descri
   report.text += contact_text(m, pairs, warnings);
   for (const std::string& warning : warnings) report.text += "warning: " + warning + "\n";
   report.text += "the model file is valid\n";
+  nlohmann::json history = nlohmann::json::array();  // the columns that a run writes
+  for (const model::HistoryRequest& request : built.history) history.push_back(request.name);
   more.update({{"model", path},
                {"facts", facts},
                {"steps", steps},
                {"contact", pairs},
+               {"history", history},
                {"unknowns", unknowns},
                {"memory",
                 {{"factor_entries", memory.entries},

@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 
+#include "osculate/api/compare_frd.hpp"
 #include "osculate/core/error.hpp"
 #include "osculate/core/text.hpp"
 #include "osculate/io/csv.hpp"
@@ -20,17 +21,6 @@ namespace {
 /// Times are compared to the digits that increments of different lengths add up to.
 bool same_time(double a, double b) {
   return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b));
-}
-
-void take_in(double a, double b, double time, QuantityDifference& d) {
-  for (const double value : {a, b})
-    if (std::isfinite(value)) d.scale = std::max(d.scale, std::abs(value));
-  if (a == b || (std::isnan(a) && std::isnan(b))) return;
-  double apart = std::abs(a - b);
-  if (std::isnan(apart)) apart = std::numeric_limits<double>::infinity();
-  if (apart <= d.largest) return;
-  d.largest = apart;
-  d.time = time;
 }
 
 // ---- histories ----------------------------------------------------------------------------------
@@ -76,19 +66,9 @@ void compare_histories(const History& a, const History& b, const Pairs& pairs, C
     if (other < 0) continue;
     const std::vector<double> x = a.table.numbers(a.table.find(column)), y = b.table.numbers(other);
     QuantityDifference d{column};
-    for (const auto& [i, j] : pairs) take_in(x[i], y[j], a.time[i], d);
+    for (const auto& [i, j] : pairs) d.take_in(x[i], y[j], a.time[i]);
     out.quantities.push_back(std::move(d));
   }
-}
-
-void note_alone(const std::vector<std::string>& mine, const std::vector<std::string>& theirs,
-                const std::string& what, const std::string& folder, Comparison& out) {
-  std::vector<std::string> alone;
-  for (const std::string& name : mine)
-    if (std::find(theirs.begin(), theirs.end(), name) == theirs.end()) alone.push_back(name);
-  if (alone.empty()) return;
-  out.notes.push_back(fmt::format("only {} has the {} {}", folder, what, core::join(alone)));
-  out.lacks = true;
 }
 
 /// Increments between those that both have are one's smaller steps; behind them the other has
@@ -139,7 +119,7 @@ void compare_fields(const std::string& name, double time, const std::vector<io::
     const std::string quantity = name + " " + x.name;
     QuantityDifference& d = found.try_emplace(quantity, QuantityDifference{quantity}).first->second;
     if (x.values.size() == y->values.size()) {
-      for (std::size_t k = 0; k < x.values.size(); ++k) take_in(x.values[k], y->values[k], time, d);
+      for (std::size_t k = 0; k < x.values.size(); ++k) d.take_in(x.values[k], y->values[k], time);
       continue;
     }
     if (std::isinf(d.largest)) continue;
@@ -152,8 +132,8 @@ void compare_fields(const std::string& name, double time, const std::vector<io::
 
 void compare_data_sets(const std::string& a, const std::string& b, Comparison& out) {
   const Sets mine = data_sets(a), theirs = data_sets(b);
-  note_alone(names_of(mine), names_of(theirs), "results", a, out);
-  note_alone(names_of(theirs), names_of(mine), "results", b, out);
+  out.note_alone(names_of(mine), names_of(theirs), "results", a);
+  out.note_alone(names_of(theirs), names_of(mine), "results", b);
   std::set<std::string> seen;  // data sets whose names of fields have been looked at
   std::map<std::string, QuantityDifference> found;
   std::vector<bool> taken(theirs.size(), false);
@@ -167,8 +147,8 @@ void compare_data_sets(const std::string& a, const std::string& b, Comparison& o
       const std::vector<io::Field> x = fields(a, set.file), y = fields(b, theirs[j].file);
       compare_fields(set.name, set.time, x, y, found, out);
       if (seen.insert(set.name).second) {
-        note_alone(names_of(set.name, x), names_of(set.name, y), "fields", a, out);
-        note_alone(names_of(set.name, y), names_of(set.name, x), "fields", b, out);
+        out.note_alone(names_of(set.name, x), names_of(set.name, y), "fields", a);
+        out.note_alone(names_of(set.name, y), names_of(set.name, x), "fields", b);
       }
       break;
     }
@@ -176,6 +156,28 @@ void compare_data_sets(const std::string& a, const std::string& b, Comparison& o
 }
 
 }  // namespace
+
+void QuantityDifference::take_in(double a, double b, double at_time) {
+  for (const double value : {a, b})
+    if (std::isfinite(value)) scale = std::max(scale, std::abs(value));
+  if (a == b || (std::isnan(a) && std::isnan(b))) return;
+  double apart = std::abs(a - b);
+  if (std::isnan(apart)) apart = std::numeric_limits<double>::infinity();
+  if (apart <= largest) return;
+  largest = apart;
+  time = at_time;
+}
+
+void Comparison::note_alone(const std::vector<std::string>& mine,
+                            const std::vector<std::string>& theirs, const std::string& what,
+                            const std::string& folder) {
+  std::vector<std::string> alone;
+  for (const std::string& name : mine)
+    if (std::find(theirs.begin(), theirs.end(), name) == theirs.end()) alone.push_back(name);
+  if (alone.empty()) return;
+  notes.push_back(fmt::format("only {} has the {} {}", folder, what, core::join(alone)));
+  lacks = true;
+}
 
 double QuantityDifference::relative() const { return largest > 0 ? largest / scale : 0; }
 
@@ -199,6 +201,15 @@ std::string Comparison::text() const {
 }
 
 Comparison compare(const std::string& a, const std::string& b) {
+  if (a.ends_with(".frd") || b.ends_with(".frd")) {
+    for (const std::string& path : {a, b})
+      if (frd_of(path).empty())
+        throw core::InputError(
+            {}, fmt::format("'{}' has not one .frd file: `output: {{frd: ...}}` writes it, and "
+                            "`osculate ccx`",
+                            path));
+    return compare_frd(frd_of(a), frd_of(b));
+  }
   const History x(a), y(b);
   const Pairs pairs = common_rows(x, y);
   if (pairs.empty())
@@ -207,8 +218,8 @@ Comparison compare(const std::string& a, const std::string& b) {
   out.increments = static_cast<int>(pairs.size());
   compare_histories(x, y, pairs, out);
   compare_data_sets(a, b, out);
-  note_alone(x.table.columns, y.table.columns, "columns", a, out);
-  note_alone(y.table.columns, x.table.columns, "columns", b, out);
+  out.note_alone(x.table.columns, y.table.columns, "columns", a);
+  out.note_alone(y.table.columns, x.table.columns, "columns", b);
   note_increments(x, pairs.size(), pairs.back()[0], a, out);
   note_increments(y, pairs.size(), pairs.back()[1], b, out);
   return out;

@@ -16,6 +16,7 @@ struct QuantityDifference {
   double largest = 0, scale = 0;
   double time = 0;  ///< of the largest difference
   [[nodiscard]] double relative() const;
+  void take_in(double a, double b, double at_time);
 };
 
 struct Comparison {
@@ -26,11 +27,15 @@ struct Comparison {
   /// ended.
   bool lacks = false;
   [[nodiscard]] double largest_relative() const;
+  /// Notes names that are in one of two lists alone.
+  void note_alone(const std::vector<std::string>& mine, const std::vector<std::string>& theirs,
+                  const std::string& what, const std::string& folder);
   /// Table and notes.
   [[nodiscard]] std::string text() const;
 };
 
-/// Two result folders, increment by increment: what `osculate compare` does.
+/// Two result folders, increment by increment: what `osculate compare` does. Where one of them is a
+/// .frd file, those files (compare_frd.hpp), of a folder the one in it.
 ///
 /// Errors     core::InputError for a folder without history.csv, and for two without an increment
 ///            in common

@@ -4,10 +4,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <limits>
 #include <sstream>
 
+#include "osculate/core/error.hpp"
+#include "osculate/io/atomic_file.hpp"
 #include "osculate/io/inp.hpp"
+#include "osculate/io/read_frd.hpp"
 
 namespace osculate::io {
 namespace {
@@ -205,6 +209,61 @@ TEST(Frd, TheHeadNamesTheMaterials) {
   EXPECT_THAT(text, HasSubstr("    1UPGM               Osculate"));
   EXPECT_THAT(text, HasSubstr("    1UMAT    1STEEL"));
   EXPECT_THAT(text, HasSubstr("    1UMAT    2RUBBER"));
+}
+
+FrdContent read_back(const std::string& text) {
+  const std::string path = (std::filesystem::temp_directory_path() / "osculate_read.frd").string();
+  write_file(path, text);
+  return read_frd(path);
+}
+
+/// Two triangles with displacements at time 0.5 and a vibration.
+std::string whole_file() {
+  const mesh::Mesh mesh = two_triangles();
+  const FrdMesh part = all_cells(mesh);
+  const std::vector<double> values{1, -2.5, 0, 0.25, -1e99, 7, 3, 4, 5, 6, 7, 8};
+  const std::vector<std::string_view> names{"DISP", "D1", "D2", "D3"};
+  return frd_head({"A title", "Osculate", "0.1", "1.may.2026", "10:11:12", {"STEEL"}}) +
+         frd_nodes(part, mesh) + frd_cells(part, mesh) +
+         frd_field(part, {1, 1, 1, 1, 0.5}, true, names, values) +
+         frd_field(part, {2, 1, 1, 2, 0, FrdTime::Mode{2, 1.5e10, 19319.5}}, true, names, values) +
+         std::string(frd_end);
+}
+
+TEST(Frd, WhatIsWrittenIsRead) {
+  const FrdContent content = read_back(whole_file());
+  EXPECT_THAT(content.nodes, ElementsAre(10, 30, 40, 50));
+  EXPECT_EQ(content.places[1], Vec3(2, -0.25, 0));
+  ASSERT_EQ(content.results.size(), 2u);
+  EXPECT_EQ(content.results[0].name, "DISP");
+  EXPECT_EQ(content.results[0].time, 0.5);
+  EXPECT_FALSE(content.results[0].mode);
+  EXPECT_EQ(content.results[0].nodes, content.nodes);
+  EXPECT_THAT(content.results[0].values, ElementsAre(1, -2.5, 0, 0.25, -1e99, 7, 3, 4, 5, 6, 7, 8));
+  EXPECT_TRUE(content.results[1].mode);
+  EXPECT_EQ(content.results[1].time, 19319.5);
+}
+
+TEST(Frd, WhatIsNotReadIsRefusedWithItsLine) {
+  const std::string good = whole_file();
+  const auto refused = [](const std::string& text) -> std::string {
+    try {
+      (void)read_back(text);
+    } catch (const core::InputError& error) {
+      return error.what();
+    }
+    return "it was read";
+  };
+  const auto without = [&](const std::string& what, const std::string& instead) {
+    std::string text = good;
+    return text.replace(text.find(what), what.size(), instead);
+  };
+  EXPECT_THAT(refused(good.substr(0, good.rfind(" -3"))), HasSubstr("ends within a block"));
+  EXPECT_THAT(refused(without("-2.50000E+00", "-2.5oooo0E+0")), HasSubstr("expected a number"));
+  EXPECT_THAT(refused(without("    1           1\n -4", "    1           2\n -4")),
+              HasSubstr("only .frd files in ASCII"));
+  EXPECT_THAT(refused(without(" 7.00000E+00\n", "\n")), HasSubstr("not all nodes"));
+  EXPECT_THAT(refused("1, 2, 3\n"), HasSubstr("it has no nodes"));
 }
 
 }  // namespace

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 #include <poll.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <map>
@@ -41,6 +43,8 @@ Process start(const std::function<std::string(std::size_t)>& work, std::size_t i
   const pid_t id = fork();
   if (id < 0) throw core::InputError({}, std::string("no process: ") + std::strerror(errno));
   if (id == 0) {
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
+    setpgid(0, 0);  // what the terminal sends comes by way of its parent, once
     close(ends[0]);
     try {
       work_and_exit(ends[1], work, i);
@@ -73,31 +77,31 @@ bool read_from(Process& process) {
 }  // namespace
 
 void run_processes(std::size_t count, int jobs, const std::function<std::string(std::size_t)>& work,
-                   const std::function<void(std::size_t, const ProcessEnd&)>& take) {
+                   const std::function<void(std::size_t, const ProcessEnd&)>& take,
+                   const std::function<int()>& interrupts) {
+  constexpr int often = 200;  // milliseconds: an interrupt may come just before it is waited for
   std::map<std::size_t, Process> running;
-  std::map<std::size_t, ProcessEnd> ended;
-  std::size_t next = 0, taken = 0;
-  while (taken < count) {
-    while (next < count && running.size() < static_cast<std::size_t>(jobs)) {
+  std::size_t next = 0;
+  for (int told = 0;;) {
+    const int asked = interrupts ? interrupts() : 0;
+    for (; told < asked; ++told)
+      for (const auto& [i, process] : running) kill(process.id, SIGTERM);
+    for (; asked == 0 && next < count && running.size() < static_cast<std::size_t>(jobs); ++next)
       running.emplace(next, start(work, next));
-      ++next;
-    }
+    if (running.empty()) return;
     std::vector<pollfd> waiting;
     std::vector<std::size_t> of;
     for (const auto& [i, process] : running) {
       waiting.push_back({process.pipe, POLLIN, 0});
       of.push_back(i);
     }
-    if (poll(waiting.data(), waiting.size(), -1) < 0) continue;
+    if (poll(waiting.data(), waiting.size(), interrupts ? often : -1) < 0) continue;
     for (std::size_t k = 0; k < of.size(); ++k)
       if (waiting[k].revents != 0 && read_from(running.at(of[k]))) {
-        ended.emplace(of[k], std::move(running.at(of[k]).end));
+        const ProcessEnd end = std::move(running.at(of[k]).end);
         running.erase(of[k]);
+        take(of[k], end);
       }
-    for (; ended.contains(taken); ++taken) {
-      take(taken, ended.at(taken));
-      ended.erase(taken);
-    }
   }
 }
 
