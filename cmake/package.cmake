@@ -2,6 +2,14 @@
 # other codes) and a tarball of the program that runs where none of its libraries are installed.
 install(FILES LICENSE CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 install(DIRECTORY examples/sliding_block DESTINATION ${CMAKE_INSTALL_DATADIR}/osculate/examples COMPONENT program)
+# What it consists of, in SPDX, where that can be found out (tools/sbom).
+find_program(OSCULATE_DPKG_QUERY dpkg-query)
+mark_as_advanced(OSCULATE_DPKG_QUERY)
+if(OSCULATE_DPKG_QUERY AND CMAKE_GENERATOR STREQUAL "Ninja")
+  install(CODE "execute_process(COMMAND_ERROR_IS_FATAL ANY COMMAND
+    \"${PROJECT_SOURCE_DIR}/tools/sbom\" \"${CMAKE_BINARY_DIR}\" -o \"${CMAKE_BINARY_DIR}/osculate.spdx.json\")" COMPONENT program)
+  install(FILES ${CMAKE_BINARY_DIR}/osculate.spdx.json DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+endif()
 # Beside the program in the tarball: all but what every Debian has.
 install(RUNTIME_DEPENDENCY_SET osculate_needs COMPONENT libraries DESTINATION ${CMAKE_INSTALL_LIBDIR} EXCLUDE_FROM_ALL
   PRE_EXCLUDE_REGEXES "^ld-linux" "^lib(c|m|pthread|dl|rt|stdc\\+\\+|gcc_s)\\.so" "^libosculate_")
