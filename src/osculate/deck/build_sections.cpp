@@ -144,21 +144,50 @@ bool is_of_layers(cell::CellType type) {
   return std::ranges::find(of_layers, type) != of_layers.end();
 }
 
+/// Whether a cell of layers is more than twice as long along its third direction as along another.
+bool is_long_across(const mesh::Mesh& mesh, const mesh::CellRef& ref) {
+  const mesh::Block& block = mesh.blocks[static_cast<std::size_t>(ref.block)];
+  const bool wedge = block.type == cell::CellType::wedge6 || block.type == cell::CellType::wedge15;
+  const auto length = [&](int node) {
+    const Index* const nodes = block.cell(ref.cell);
+    return (mesh.nodes[static_cast<std::size_t>(nodes[node])] -
+            mesh.nodes[static_cast<std::size_t>(nodes[0])])
+        .norm();
+  };
+  constexpr double twice = 2;
+  return length(wedge ? 3 : 4) > twice * std::min(length(1), length(wedge ? 2 : 3));
+}
+
+/// The third axis of `shell: true` is across layers, and not along some.
+template <int Dim>
+void check_layers(BuildContext<Dim>& c, const Section& s) {
+  const mesh::Mesh& mesh = c.model().mesh;
+  const std::vector<mesh::CellRef>& cells = c.set(s.on).cells;
+  for (const mesh::CellRef& ref : cells) {
+    const cell::CellType type = mesh.blocks[static_cast<std::size_t>(ref.block)].type;
+    if (!is_of_layers(type))
+      throw core::InputError(s.orientation.mark,
+                             fmt::format("shell: true is for layers of bricks or wedges, and set "
+                                         "'{}' has {} cells",
+                                         s.on.value, cell::info(type).name));
+  }
+  const auto across = [&](const mesh::CellRef& ref) { return is_long_across(mesh, ref); };
+  if (s.element.value != SectionElement::solid_shell &&
+      2 * static_cast<std::size_t>(std::ranges::count_if(cells, across)) > cells.size())
+    c.built.warnings.push_back(fmt::format(
+        "sections: the third axis of the shell '{}' is along the third local direction of its "
+        "cells, in which most of them are more than twice as long as in another: are they layers "
+        "across it?",
+        s.on.value));
+}
+
 /// Axes that are given mean something, and are some.
 template <int Dim>
 void check_orientation(BuildContext<Dim>& c, const Section& s, const solid::Section<Dim>& section) {
   const material::Orientation& axes = s.orientation.value;
   if (axes.kind == material::Orientation::Kind::global) return;
   require_axes(axes, s.orientation.mark);
-  if (axes.on_shell)
-    for (const mesh::CellRef& ref : c.set(s.on).cells) {
-      const cell::CellType type = c.model().mesh.blocks[static_cast<std::size_t>(ref.block)].type;
-      if (!is_of_layers(type))
-        throw core::InputError(s.orientation.mark,
-                               fmt::format("shell: true is for layers of bricks or wedges, and set "
-                                           "'{}' has {} cells",
-                                           s.on.value, cell::info(type).name));
-    }
+  if (axes.on_shell) check_layers(c, s);
   if (!material::directional(section.law) && section.expansion.directions.empty())
     c.built.warnings.push_back(
         fmt::format("sections: the orientation on '{}' has no effect: material '{}' is the same in "

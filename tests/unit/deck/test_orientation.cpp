@@ -86,6 +86,20 @@ TEST(MaterialAxes, LieOnLayersOfBricksAndWedges) {
             "and set 'b' has quad4 cells");
 }
 
+TEST(MaterialAxes, AlongLayersAreWarnedOf) {
+  const auto warnings = [](const char* heights) {
+    std::string text = model(
+        wood, ", orientation: {rectangular: {x: [1, 0, 0], xy: [0, 1, 0]}, shell: true}", true);
+    text.replace(text.find("z: [0, 1]"), 9, heights);
+    const Description d = parse_model(text, "model.yaml");
+    return build3(d, load_mesh(d)).warnings;
+  };
+  const auto warned = ::testing::Contains(
+      HasSubstr("the third axis of the shell 'b' is along the third local direction of its cells"));
+  EXPECT_THAT(warnings("z: [0, 2.1]"), warned);
+  EXPECT_THAT(warnings("z: [0, 1.9]"), ::testing::Not(warned));
+}
+
 TEST(MaterialAxes, WithoutEffectAreToldOf) {
   const Built b = built(model("{linear_elastic: {E: 1, nu: 0.3}}",
                               ", orientation: {cylindrical: {from: [3, 3]}}", false));
