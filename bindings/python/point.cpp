@@ -31,12 +31,12 @@ struct Motion {
   }
   [[nodiscard]] Rows of(const contact::Form<Dim>& form) const {
     Rows rows = Rows::Zero(1, columns);
-    for (std::size_t s = 0; s < contact::slots<Dim>; ++s) add(s, form[s].transpose(), rows);
+    for (std::size_t s = 0; s < form.v.size(); ++s) add(s, form[s].transpose(), rows);
     return rows;
   }
   [[nodiscard]] Rows of(const contact::VectorForm<Dim>& form) const {
     Rows rows = Rows::Zero(Dim, columns);
-    for (std::size_t s = 0; s < contact::slots<Dim>; ++s) add(s, form[s], rows);
+    for (std::size_t s = 0; s < form.m.size(); ++s) add(s, form[s], rows);
     return rows;
   }
 };

@@ -1,5 +1,7 @@
 #include "osculate/cell/facet_shape.hpp"
 
+#include <algorithm>
+
 #include "osculate/cell/shape.hpp"
 #include "osculate/core/dense.hpp"
 
@@ -125,7 +127,8 @@ void fill_triangle(const Vec2& xi, std::size_t count, FacetShape& s) {
 FacetShape facet_shape(CellType type, const Vec2& xi, int order) {
   FacetShape s;
   s.count = info(type).nodes;
-  const std::size_t count = derivatives[static_cast<std::size_t>(order)];
+  const int highest = std::min(order, highest_derivative(type));
+  const std::size_t count = derivatives[static_cast<std::size_t>(highest)];
   if (type == CellType::quad4 || type == CellType::quad9)
     fill_product(type == CellType::quad9, xi, count, s);
   else if (type == CellType::tri3)

@@ -30,6 +30,12 @@ struct FacetShape {
 /// Requires   type is tri3, tri6, quad4, quad8 or quad9
 [[nodiscard]] FacetShape facet_shape(CellType type, const Vec2& xi, int order = 3);
 
+/// Derivatives of higher order are zero.
+[[nodiscard]] constexpr int highest_derivative(CellType type) {
+  if (type == CellType::tri3) return 1;
+  return type == CellType::tri6 || type == CellType::quad4 ? 2 : 3;
+}
+
 /// True for the five types that `facet_shape` knows.
 [[nodiscard]] constexpr bool is_facet(CellType type) {
   return type == CellType::tri3 || type == CellType::tri6 || type == CellType::quad4 ||

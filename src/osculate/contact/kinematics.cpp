@@ -93,9 +93,9 @@ void add_fixed_directions(Kinematics<Dim>& k) {
   k.d_normal[0] += fixed / k.gap;
 }
 
-/// Fills what follows from the base vectors, the normal and the gap.
+/// Fills what follows from the base vectors, the normal and the gap; the forms only if `varied`.
 template <int Dim>
-void complete(Kinematics<Dim>& k) {
+void complete(Kinematics<Dim>& k, bool varied = true) {
   using I = Eigen::Index;
   for (std::size_t i = 0; i < k.moving; ++i)
     for (std::size_t j = 0; j < k.moving; ++j) {
@@ -110,12 +110,13 @@ void complete(Kinematics<Dim>& k) {
     k.metric_inverse(0, 0) = 1 / k.metric(0, 0);
     k.offset_metric_inverse(0, 0) = 1 / k.offset_metric(0, 0);
   }
+  k.frame = tangent_frame<Dim>(k.normal, k.moving > 0 ? k.rho1[0] : Vec<Dim>(Vec<Dim>::UnitX()));
+  if (!varied) return;
   for (std::size_t i = 0; i < k.moving; ++i) k.d_xi[i] = convective_variation(k, i);
   for (std::size_t i = 0; i < k.moving; ++i) k.d_rho1[i] = base_variation(k, i);
   k.d_gap = gap_variation<Dim>(k.normal);
   k.d_normal = normal_variation(k);
   add_fixed_directions(k);
-  k.frame = tangent_frame<Dim>(k.normal, k.moving > 0 ? k.rho1[0] : Vec<Dim>(Vec<Dim>::UnitX()));
 }
 
 constexpr double coincident = 1e-150;  // keeps d(normal) finite where the points coincide
@@ -144,7 +145,7 @@ Kinematics<2> face_kinematics(const geometry::CurveJet<2>& jet, const Vec2& slav
   return k;
 }
 
-Kinematics<3> face_kinematics(const geometry::SurfaceJet& jet, const Vec3& slave) {
+Kinematics<3> face_kinematics(const geometry::SurfaceJet& jet, const Vec3& slave, bool varied) {
   Kinematics<3> k;
   k.feature = projection::Feature::face;
   k.moving = 2;
@@ -153,7 +154,7 @@ Kinematics<3> face_kinematics(const geometry::SurfaceJet& jet, const Vec3& slave
   k.rho3 = jet.r3;
   k.normal = jet.r1[0].cross(jet.r1[1]).normalized();
   k.gap = (slave - jet.r).dot(k.normal);
-  complete(k);
+  complete(k, varied);
   return k;
 }
 

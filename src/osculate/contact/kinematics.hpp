@@ -25,15 +25,18 @@ template <int Dim>
 
 /// A linear form in the relative variations  v_s = sum_k w^(s)_k du_k  of a contact point:
 /// value = sum_s form[s] . v_s . So v_0 = du_slave - du_master and v_,i = -d(rho_,i) at fixed xi.
-template <int Dim>
+/// `count`: slots that it depends on; of first derivatives at most, where nothing else is said.
+template <int Dim, std::size_t count = std::size_t{Dim}>
 struct Form {
-  std::array<Vec<Dim>, slots<Dim>> v;
+  std::array<Vec<Dim>, count> v;
   Form() { v.fill(Vec<Dim>::Zero()); }
 
   Vec<Dim>& operator[](std::size_t s) { return v[s]; }
   const Vec<Dim>& operator[](std::size_t s) const { return v[s]; }
-  Form& operator+=(const Form& o) {
-    for (std::size_t s = 0; s < v.size(); ++s) v[s] += o.v[s];
+  template <std::size_t fewer>
+  Form& operator+=(const Form<Dim, fewer>& o) {
+    static_assert(fewer <= count);
+    for (std::size_t s = 0; s < fewer; ++s) v[s] += o.v[s];
     return *this;
   }
   friend Form operator+(Form a, const Form& b) { return a += b; }
@@ -46,7 +49,7 @@ struct Form {
 /// The same with values in space: value = sum_s form[s] v_s.
 template <int Dim>
 struct VectorForm {
-  std::array<Mat<Dim, Dim>, slots<Dim>> m;
+  std::array<Mat<Dim, Dim>, Dim> m;
   VectorForm() { m.fill(Mat<Dim, Dim>::Zero()); }
 
   Mat<Dim, Dim>& operator[](std::size_t s) { return m[s]; }
@@ -73,7 +76,7 @@ struct VectorForm {
 template <int Dim>
 [[nodiscard]] Form<Dim> dot(const Vec<Dim>& vector, const VectorForm<Dim>& form) {
   Form<Dim> out;
-  for (std::size_t s = 0; s < slots<Dim>; ++s) out[s].noalias() = form[s].transpose() * vector;
+  for (std::size_t s = 0; s < out.v.size(); ++s) out[s].noalias() = form[s].transpose() * vector;
   return out;
 }
 
@@ -138,9 +141,11 @@ template <int Dim>
   return domain_margin(k) > round_off;
 }
 
-/// Kinematics at a foot point inside a facet: closest point condition satisfied by `jet`.
+/// Kinematics at a foot point inside a facet: closest point condition satisfied by `jet`. Not
+/// `varied`: its forms are left zero, for who asks for no derivatives.
 [[nodiscard]] Kinematics<2> face_kinematics(const geometry::CurveJet<2>& jet, const Vec2& slave);
-[[nodiscard]] Kinematics<3> face_kinematics(const geometry::SurfaceJet& jet, const Vec3& slave);
+[[nodiscard]] Kinematics<3> face_kinematics(const geometry::SurfaceJet& jet, const Vec3& slave,
+                                            bool varied = true);
 
 /// Kinematics at a foot point inside an edge between faces. `outward` (the averaged normal of the
 /// faces) fixes the sign of the gap and is the normal when the slave point lies on the edge.

@@ -10,12 +10,23 @@ using I = Eigen::Index;
 /// Row `a` of the tangent gets the derivative of the force in that slot.
 template <int Dim>
 void add_row(PointTerms<Dim>& terms, std::size_t a, const VectorForm<Dim>& form) {
-  for (std::size_t b = 0; b < terms.used; ++b) terms.m[a][b] += form[b];
+  for (std::size_t b = 0; b < form.m.size(); ++b) terms.m[a][b] += form[b];
 }
+template <int Dim, std::size_t count>
+void add_row(PointTerms<Dim>& terms, std::size_t a, const Vec<Dim>& vector,
+             const Form<Dim, count>& form) {
+  for (std::size_t b = 0; b < count; ++b) terms.m[a][b].noalias() += vector * form[b].transpose();
+}
+
+/// A form that depends on second derivatives too.
 template <int Dim>
-void add_row(PointTerms<Dim>& terms, std::size_t a, const Vec<Dim>& vector, const Form<Dim>& form) {
-  for (std::size_t b = 0; b < terms.used; ++b)
-    terms.m[a][b].noalias() += vector * form[b].transpose();
+using FullForm = Form<Dim, slots<Dim>>;
+
+template <int Dim>
+FullForm<Dim> full(const Form<Dim>& form) {
+  FullForm<Dim> out;
+  out += form;
+  return out;
 }
 
 template <int Dim>
@@ -38,7 +49,7 @@ std::size_t used_slots(ResidualForm form) {
 template <int Dim>
 struct Conjugate {
   Vec<Dim - 1> value = Vec<Dim - 1>::Zero();
-  std::array<Form<Dim>, directions<Dim>> variation;   ///< without the traction's own change
+  std::array<FullForm<Dim>, directions<Dim>> variation;  ///< without the traction's own change
   std::array<Vec<Dim>, directions<Dim>> of_traction;  ///< dT^j = of_traction . dt + variation
 };
 
@@ -53,8 +64,8 @@ Vec<Dim - 1> conjugate_traction(const Kinematics<Dim>& k, const Vec<Dim>& t) {
 
 /// d(h_ij) = n . d(rho_,ij) + rho_,ij . d(n)
 template <int Dim>
-Form<Dim> curvature_variation(const Kinematics<Dim>& k, std::size_t i, std::size_t j) {
-  Form<Dim> form = dot(k.second(i, j), k.d_normal);
+FullForm<Dim> curvature_variation(const Kinematics<Dim>& k, std::size_t i, std::size_t j) {
+  FullForm<Dim> form = full(dot(k.second(i, j), k.d_normal));
   form[second_slot<Dim>(i, j)] -= k.normal;
   for (std::size_t l = 0; l < k.moving; ++l) form += k.normal.dot(k.third(i, j, l)) * k.d_xi[l];
   return form;
@@ -62,8 +73,8 @@ Form<Dim> curvature_variation(const Kinematics<Dim>& k, std::size_t i, std::size
 
 /// d(a_ij - gap h_ij)
 template <int Dim>
-Form<Dim> offset_metric_variation(const Kinematics<Dim>& k, std::size_t i, std::size_t j) {
-  Form<Dim> form = dot(k.rho1[i], k.d_rho1[j]) + dot(k.rho1[j], k.d_rho1[i]);
+FullForm<Dim> offset_metric_variation(const Kinematics<Dim>& k, std::size_t i, std::size_t j) {
+  FullForm<Dim> form = full(dot(k.rho1[i], k.d_rho1[j]) + dot(k.rho1[j], k.d_rho1[i]));
   form += -k.curvature(static_cast<I>(i), static_cast<I>(j)) * k.d_gap;
   form += -k.gap * curvature_variation(k, i, j);
   return form;
@@ -74,9 +85,9 @@ Conjugate<Dim> conjugate(const Kinematics<Dim>& k, const Vec<Dim>& t) {
   Conjugate<Dim> c;
   c.of_traction.fill(Vec<Dim>::Zero());
   c.value = conjugate_traction(k, t);
-  std::array<Form<Dim>, directions<Dim>> covariant;  // t . d(rho_,i) - d(g_il) T^l
+  std::array<FullForm<Dim>, directions<Dim>> covariant;  // t . d(rho_,i) - d(g_il) T^l
   for (std::size_t i = 0; i < k.moving; ++i) {
-    covariant[i] = dot(t, k.d_rho1[i]);
+    covariant[i] = full(dot(t, k.d_rho1[i]));
     for (std::size_t l = 0; l < k.moving; ++l)
       covariant[i] += -c.value[static_cast<I>(l)] * offset_metric_variation(k, i, l);
   }
@@ -113,13 +124,14 @@ void add_full_shear(PointTerms<Dim>& terms, const Kinematics<Dim>& k, const Shea
   const Conjugate<Dim> c = conjugate(k, shear.value);
   for (std::size_t j = 0; j < k.moving; ++j) {
     const double traction = c.value[static_cast<I>(j)];
-    const Form<Dim> d_traction = c.variation[j] + dot(c.of_traction[j], shear.variation);
+    FullForm<Dim> d_traction = c.variation[j];
+    d_traction += dot(c.of_traction[j], shear.variation);
     const Vec<Dim> of_trial = shear.d_predictor.transpose() * c.of_traction[j];
     add_row(terms, 0, k.rho1[j], d_traction);
     add_row(terms, 0, traction * k.d_rho1[j]);
     terms.s[0] += k.rho1[j] * of_trial.transpose();
     const std::size_t a = first_slot(j);
-    add_row(terms, a, k.normal, (-k.gap) * d_traction + (-traction) * k.d_gap);
+    add_row(terms, a, k.normal, (-k.gap) * d_traction + full((-traction) * k.d_gap));
     add_row(terms, a, (-k.gap * traction) * k.d_normal);
     terms.s[a] -= k.gap * k.normal * of_trial.transpose();
   }

@@ -71,7 +71,7 @@ void set_constraint_tangent(const PairDefinition<Dim>& pair, std::size_t i,
   for (int n = 0; n < block.count; ++n) {
     Vec<Dim> gap = Vec<Dim>::Zero();
     Mat<Dim, Dim> along = Mat<Dim, Dim>::Zero();
-    for (std::size_t s = 0; s < contact::slots<Dim>; ++s) {
+    for (std::size_t s = 0; s < k.d_gap.v.size(); ++s) {
       gap += w(s, n) * k.d_gap[s];
       along += w(s, n) * rate.variation[s];
     }

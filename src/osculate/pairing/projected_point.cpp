@@ -103,7 +103,7 @@ ProjectedPoint<3> projected_point(const FacetSurface& master, const Projection<3
   } else if (p.feature == Feature::edge && p.local >= 0) {
     project_on_edge(facet, shape, point, x, projected);
   } else {
-    projected.kinematics = contact::face_kinematics(jet, point);
+    projected.kinematics = contact::face_kinematics(jet, point, order > 0);
     for (std::size_t s = 1; s < contact::slots<3>; ++s) projected.shape[s] = shape.n[s];
   }
   drop_rounding(point, projected);

@@ -119,11 +119,14 @@ cell::FacetShape facet_shape(const SurfaceFacet& facet, const Vec2& xi, int orde
 geometry::SurfaceJet facet_jet(const SurfaceFacet& facet, const cell::FacetShape& shape,
                                std::span<const Vec3> x) {
   geometry::SurfaceJet jet;
+  const int highest = is_plain(facet) ? cell::highest_derivative(facet.type) : 3;
   for (std::size_t k = 0; k < static_cast<std::size_t>(shape.count); ++k) {
     const Vec3& node = x[static_cast<std::size_t>(facet.nodes[k])];
     jet.r += shape.n[0][k] * node;
     for (std::size_t d = 0; d < 2; ++d) jet.r1[d] += shape.n[1 + d][k] * node;
+    if (highest < 2) continue;
     for (std::size_t d = 0; d < 3; ++d) jet.r2[d] += shape.n[3 + d][k] * node;
+    if (highest < 3) continue;
     for (std::size_t d = 0; d < 4; ++d) jet.r3[d] += shape.n[6 + d][k] * node;
   }
   return jet;

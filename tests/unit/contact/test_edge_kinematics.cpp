@@ -65,12 +65,12 @@ Kinematics<3> on_edge(int count, const Eigen::VectorXd& x) {
 
 /// What a Form makes of the direction `d`: the slave's weights are 1, the edge's -N and -N'.
 struct Relative {
-  std::array<Vec3, 3> v;  // slots 0, first, second
+  std::array<Vec3, 3> v;  // slots 0, first, second (no form here depends on the last)
   [[nodiscard]] double of(const Form<3>& f) const {
-    return f[0].dot(v[0]) + f[first_slot(0)].dot(v[1]) + f[second_slot<3>(0, 0)].dot(v[2]);
+    return f[0].dot(v[0]) + f[first_slot(0)].dot(v[1]);
   }
   [[nodiscard]] Vec3 of(const VectorForm<3>& f) const {
-    return f[0] * v[0] + f[first_slot(0)] * v[1] + f[second_slot<3>(0, 0)] * v[2];
+    return f[0] * v[0] + f[first_slot(0)] * v[1];
   }
 };
 

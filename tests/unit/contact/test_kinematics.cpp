@@ -95,7 +95,7 @@ Kinematics<2> kinematics(const Master& m, const Eigen::VectorXd& x) {
 struct Relative {
   Vec2 p, q, r;
   [[nodiscard]] double of(const Form<2>& f) const {
-    return f[0].dot(p) + f[1].dot(q) + f[2].dot(r);
+    return f[0].dot(p) + f[1].dot(q);
   }
 };
 
