@@ -22,16 +22,20 @@ struct BasicSystem<Dim>::Impl::Explicit {
     Dof dof, lead;
     double factor;
   };
-  /// How the forces of cells become those of nodes: parts of fixed size take their cells in order,
-  /// so that bits do not depend on the number of threads. A node of one part only is added to where
-  /// it stands; others have a slot in each part, and the slots are summed in order.
+  /// How the forces of the parts of `batches` become those of nodes. The parts do not depend on the
+  /// number of threads, so that the bits do not. A node of one part only gets its force from there;
+  /// others have a slot in each part, and the slots are summed in order.
   struct Parts {
-    std::size_t of_fours = 0, count = 0;  ///< parts of batches, and all
-    std::vector<std::size_t> first;       ///< of a job's places in `place`
-    std::vector<Index> place;             ///< first dof, or dofs + that of the slot
+    std::vector<Index> place;        ///< of the parts' nodes: first dof, or dofs + that of the slot
+    std::vector<std::size_t> first;  ///< of a part's places
     std::vector<double> slots;
     std::vector<Index> shared;       ///< nodes with slots
     std::vector<std::size_t> begin;  ///< of their slots
+  };
+  /// What a thread works with.
+  struct Work {
+    BulkBlock block;
+    typename ForceBatches<Dim>::Nodal along, force;  ///< of a part
   };
   /// A rigid body in space that turns by itself: its angular momentum, and the moment on it.
   struct Turning {
@@ -56,7 +60,8 @@ struct BasicSystem<Dim>::Impl::Explicit {
   ForceBatches<Dim> batches;
   std::vector<bool> touching;  ///< cells with nodes in contact pairs
   Parts parts;
-  std::vector<BulkBlock> work;  ///< per thread
+  std::vector<Work> work;     ///< per thread
+  std::vector<Dof> gathered;  ///< dofs whose forces or whose part in the motion others have
   std::vector<pairing::ActiveSet<Dim>> active_set;
 
   // The running increment.
@@ -66,7 +71,8 @@ struct BasicSystem<Dim>::Impl::Explicit {
   std::vector<Turning> turning;
   Vector past_internal, past_contact, past_external, past_damping, damping_force;
   Vector of_loads;  ///< forces, likewise gathered; for `kick`
-  Vector total;  ///< of all forces on the side of the internal ones, at dofs with their followers
+  /// All forces on the side of the internal ones, where they are `gathered`: with the followers'.
+  Vector total;
   Vector past_held;  ///< total at `held`
   Works works;
   StableStep stable;
@@ -101,7 +107,7 @@ struct BasicSystem<Dim>::Impl::Explicit {
   void place(const Vector& position);
   [[nodiscard]] bool add_cells(const Vector& u, double h);
   /// A cell by itself; false: it has no answer.
-  [[nodiscard]] bool add_cell(std::size_t cell, const Vector& u, double h);
+  [[nodiscard]] bool add_cell(std::size_t cell, const Vector& u, double h, Work& with);
   /// Where the forces of a place stand.
   [[nodiscard]] double* at_place(Index place) {
     Vector& internal = system.last.forces.internal;
@@ -117,9 +123,10 @@ struct BasicSystem<Dim>::Impl::Explicit {
   /// Adds the forces on nodes of rigid bodies to those on these, and those on what follows to those
   /// on what leads it.
   void gather(Vector& forces) const;
-  void set_accelerations(double h, solve::ExplicitMotion& m);
+  /// Adds to the works, too. False: forces are no numbers.
+  [[nodiscard]] bool set_accelerations(double h, solve::ExplicitMotion& m);
   void end_turns(double h);
-  void add_works(double h, const solve::ExplicitMotion& m);
+  void add_held_works(double h, const solve::ExplicitMotion& m);
   void move_body(std::size_t body, double fraction, double h, solve::ExplicitMotion& m);
   [[nodiscard]] double kinetic(const Vector& velocity) const;
   [[nodiscard]] double kinetic_of_held(const Vector& velocity) const;

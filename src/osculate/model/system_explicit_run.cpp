@@ -158,7 +158,7 @@ Rates BasicSystem<Dim>::Impl::Explicit::begin(const State& committed, Rates rate
   add_contact(0, 0);
   add_loads(0);
   sum_forces();
-  set_accelerations(0, motion);
+  (void)set_accelerations(0, motion);  // likewise
   rates.internal = system.last.forces.internal;
   rates.contact = system.last.forces.contact;
   rates.external = system.last.forces.external;
@@ -189,38 +189,41 @@ Rates BasicSystem<Dim>::Impl::Explicit::begin(const State& committed, Rates rate
   return rates;
 }
 
-/// Batches, then cells by themselves, in order.
+/// Part by part, in order.
 template <int Dim>
 solid::CellEnergy BasicSystem<Dim>::Impl::Explicit::cells_energy(
     const Eigen::VectorXd& u, const std::vector<double>& memory) const {
-  const auto fours = static_cast<std::ptrdiff_t>(batches.count());
-  const auto others = static_cast<std::ptrdiff_t>(batches.others().size());
-  std::vector<solid::CellEnergy> of_four(batches.count()), of_other(batches.others().size());
-  const auto alone = [&](std::size_t cell) {
-    const typename BulkTerm<Dim>::Job& job = system.bulk.jobs[cell];
-    return energy_of_cell(system.model, *job.section, job.cell, job.memory, u, memory);
-  };
-#pragma omp parallel num_threads(system.bulk.threads)
-  {
-#pragma omp for schedule(static)
-    for (std::ptrdiff_t b = 0; b < fours; ++b) {
-      const auto four = static_cast<std::size_t>(b);
-      if (batches.energy(four, u, of_four[four].stored)) continue;
-      of_four[four] = {};
-      for (const std::size_t cell : batches.jobs(four)) of_four[four].stored += alone(cell).stored;
-    }
-#pragma omp for schedule(static)
-    for (std::ptrdiff_t i = 0; i < others; ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      of_other[at] = alone(batches.others()[at]);
-    }
-  }
-  solid::CellEnergy sum;
-  for (const auto* const energies : {&of_four, &of_other})
-    for (const solid::CellEnergy& e : *energies) {
+  const auto parts_count = static_cast<std::ptrdiff_t>(batches.parts());
+  std::vector<solid::CellEnergy> of_part(batches.parts());
+#pragma omp parallel for num_threads(system.bulk.threads) schedule(static)
+  for (std::ptrdiff_t p = 0; p < parts_count; ++p) {
+    const auto part = static_cast<std::size_t>(p);
+    solid::CellEnergy& sum = of_part[part];
+    const auto alone = [&](std::size_t cell) {
+      const typename BulkTerm<Dim>::Job& job = system.bulk.jobs[cell];
+      const solid::CellEnergy e =
+          energy_of_cell(system.model, *job.section, job.cell, job.memory, u, memory);
       sum.stored += e.stored;
       sum.dissipated += e.dissipated;
+    };
+    typename ForceBatches<Dim>::Nodal along;
+    batches.gather(part, u, along);
+    const auto fours = batches.fours(part), others = batches.alone(part);
+    for (std::size_t f = fours.begin; f < fours.end; ++f) {
+      double stored = 0;
+      if (batches.energy(f, along, stored)) {
+        sum.stored += stored;
+      } else {
+        for (const std::size_t cell : batches.jobs(f)) alone(cell);
+      }
     }
+    for (std::size_t i = others.begin; i < others.end; ++i) alone(batches.others()[i]);
+  }
+  solid::CellEnergy sum;
+  for (const solid::CellEnergy& e : of_part) {
+    sum.stored += e.stored;
+    sum.dissipated += e.dissipated;
+  }
   return sum;
 }
 

@@ -66,20 +66,22 @@ template <int Dim>
 void BasicSystem<Dim>::Impl::Explicit::measure_stable_step() {
   // Parts of fixed size, each from what governed before: the bits do not depend on the number of
   // threads.
-  constexpr std::size_t part = 1024;
-  const std::size_t jobs = system.bulk.jobs.size();
   Fastest all;
   typename ForceBatches<Dim>::Stiffness first;
-  if (stable.cell >= 0) look_at(static_cast<std::size_t>(stable.cell), work.front(), first, all);
-  std::vector<Fastest> of_part((jobs + part - 1) / part, all);
+  if (stable.cell >= 0)
+    look_at(static_cast<std::size_t>(stable.cell), work.front().block, first, all);
+  std::vector<Fastest> of_part(batches.parts(), all);
   const auto part_count = static_cast<std::ptrdiff_t>(of_part.size());
 #pragma omp parallel for num_threads(system.bulk.threads) schedule(dynamic)
   for (std::ptrdiff_t p = 0; p < part_count; ++p) {
     const auto number = static_cast<std::size_t>(p);
-    BulkBlock& block = work[static_cast<std::size_t>(omp_get_thread_num())];
+    BulkBlock& block = work[static_cast<std::size_t>(omp_get_thread_num())].block;
     typename ForceBatches<Dim>::Stiffness last;
-    for (std::size_t c = number * part; c < std::min(jobs, (number + 1) * part); ++c)
-      look_at(c, block, last, of_part[number]);
+    const auto look = [&](std::size_t cell) { look_at(cell, block, last, of_part[number]); };
+    const auto fours = batches.fours(number), others = batches.alone(number);
+    for (std::size_t f = fours.begin; f < fours.end; ++f)
+      for (const std::size_t cell : batches.jobs(f)) look(cell);
+    for (std::size_t i = others.begin; i < others.end; ++i) look(batches.others()[i]);
   }
   for (const Fastest& f : of_part) {
     if (f.value > all.value) {

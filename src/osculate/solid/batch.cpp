@@ -12,13 +12,16 @@ namespace {
 using batches::mode_count;
 using core::Pack;
 
+/// Numbers that the shape of a quad4 or hex8 is made of.
+template <int Dim>
+constexpr std::size_t factor_count = Dim*((1 << Dim) - 1);
+
 /// Linear modes of a quad4 or hex8, in which it does not strain or strains by one component, and
 /// modes without mean strain, dual to gamma_a; columns of displacements.
 template <int Dim>
 struct CellBasis {
   static constexpr int nodes = corners<Dim>, dofs = Dim * nodes, modes = mode_count<Dim>;
   CornerPoint<Dim> mean;  ///< volume and mean gradients
-  Mat<modes, Dim> slant;  ///< h_a . X / nodes
   Mat<dofs, components<Dim>> of_strain = Mat<dofs, components<Dim>>::Zero();
   Mat<dofs, Dim* modes> of_mode = Mat<dofs, Dim * modes>::Zero();
 };
@@ -36,8 +39,8 @@ CellBasis<Dim> basis_of(const Section<Dim>& section, const Coordinates<Dim>& ref
       const Vec<Dim> xi = node_at<Dim>(corner_cell<Dim>, k);
       h(k, a) = Dim == 3 && a < 3 ? xi.prod() / xi[a] : xi.prod();
     }
-  b.slant = h.transpose() * x / nodes;
-  const Mat<nodes, modes> gamma = h / nodes - b.mean.gradient * b.slant.transpose();
+  const Mat<modes, Dim> slant = h.transpose() * x / nodes;
+  const Mat<nodes, modes> gamma = h / nodes - b.mean.gradient * slant.transpose();
   const Mat<nodes, modes> plain = h * (gamma.transpose() * h).eval().inverse();
   const Mat<nodes, modes> dual = plain - x * (b.mean.gradient.transpose() * plain);
   const Eigen::Matrix<double, 1, Dim> centre = x.colwise().mean();
@@ -65,13 +68,14 @@ ElementMatrix<Dim> stiffness_of_cell(const Section<Dim>& section, cell::CellType
 }
 
 template <int Dim>
-void keep_mean(const CellBasis<Dim>& b, int lane, Pack*& at) {
-  const auto put = [&](double value) { (at++)->set(lane, value); };
-  put(b.mean.volume);
-  for (int k = 0; k < CellBasis<Dim>::nodes; ++k)
-    for (int j = 0; j < Dim; ++j) put(b.mean.gradient(k, j));
-  for (int a = 0; a < CellBasis<Dim>::modes; ++a)
-    for (int j = 0; j < Dim; ++j) put(b.slant(a, j));
+void keep_factors(const Coordinates<Dim>& reference, int lane, Pack* numbers) {
+  for (int i = 0; i < Dim; ++i) {
+    OfCorners<Dim, double> v;
+    for (std::size_t c = 0; c < v.size(); ++c) v[c] = reference(corner_node<Dim>[c], i);
+    to_products(v);
+    for (std::size_t m = 1; m < v.size(); ++m)
+      (numbers++)->set(lane, v[m] / static_cast<double>(v.size()));
+  }
 }
 
 /// Whether the kept numbers give the forces of the stiffness, at displacements that have a share of
@@ -87,7 +91,8 @@ bool gives_forces(const Batch<Dim>& batch, const ElementMatrix<Dim>& stiffness, 
     u[d] = std::sin(1.0 + 2.3 * d * d);
     of_u[static_cast<std::size_t>(d)] = Pack(u[d]);
   }
-  batches::linear_forces<Dim>(batch, numbers, of_u.data(), force.data());
+  batches::linear_forces<Dim>(batch, depth_at(batch.section, 0), numbers, of_u.data(),
+                              force.data());
   for (int d = 0; d < dofs; ++d) got[d] = force[static_cast<std::size_t>(d)][lane];
   const Vec<dofs> want = stiffness * u;
   return (got - want).norm() <= tolerance * stiffness.norm() * u.norm();
@@ -98,38 +103,14 @@ bool keep_linear(const Batch<Dim>& batch, const Coordinates<Dim>& reference, int
                  Pack* numbers) {
   const CellBasis<Dim> b = basis_of(batch.section, reference);
   const ElementMatrix<Dim> k = stiffness_of_cell(batch.section, batch.type, reference);
-  Pack* at = numbers;
-  keep_mean(b, lane, at);
+  keep_factors<Dim>(reference, lane, numbers);
+  Pack* at = numbers + factor_count<Dim>;
   constexpr int M = Dim * mode_count<Dim>;
   const Mat<CellBasis<Dim>::dofs, M> pushed = k * b.of_mode;
   const Mat<M, M> own = b.of_mode.transpose() * pushed;
   for (int r = 0; r < M; ++r)
     for (int c = r; c < M; ++c) (at++)->set(lane, own(r, c));
   return gives_forces(batch, k, lane, numbers);
-}
-
-template <int Dim>
-void keep_one_point(const Batch<Dim>& batch, const Coordinates<Dim>& reference, int lane,
-                    Pack* numbers) {
-  const CellBasis<Dim> b = basis_of(batch.section, reference);
-  Pack* at = numbers;
-  keep_mean(b, lane, at);
-  const Shape<Dim> centre = shape_at<Dim>(corner_cell<Dim>, Vec<Dim>::Zero());
-  const Mat<Dim, Dim> base = reference.transpose() * centre.d.template topRows<corners<Dim>>();
-  for (int i = 0; i < Dim; ++i)
-    for (int j = 0; j < Dim; ++j) (at++)->set(lane, base(i, j));
-  for (int i = 0; i < Dim; ++i) (at++)->set(lane, 1 / base.col(i).squaredNorm());
-}
-
-template <int Dim>
-void keep_points(const Coordinates<Dim>& reference, int lane, Pack* numbers) {
-  for (int i = 0; i < Dim; ++i) {
-    OfCorners<Dim, double> v;
-    for (std::size_t c = 0; c < v.size(); ++c) v[c] = reference(corner_node<Dim>[c], i);
-    to_products(v);
-    for (std::size_t m = 1; m < v.size(); ++m)
-      (numbers++)->set(lane, v[m] / static_cast<double>(v.size()));
-  }
 }
 
 template <int Dim>
@@ -174,17 +155,9 @@ std::optional<BatchKind> kind_of(const Section<Dim>& section, cell::CellType typ
 
 template <int Dim>
 std::size_t numbers_of(BatchKind kind) {
-  constexpr int modes = Dim * mode_count<Dim>, nodes = 1 << Dim;
-  switch (kind) {
-    case BatchKind::linear:
-      return 1 + Dim * nodes + modes + modes * (modes + 1) / 2;
-    case BatchKind::one_point:
-      return 1 + Dim * nodes + modes + Dim * Dim + Dim;
-    case BatchKind::points:
-      return Dim * (nodes - 1);
-    default:
-      return 1 + Dim * (Dim + 1);
-  }
+  constexpr int modes = Dim * mode_count<Dim>;
+  if (kind == BatchKind::simplex) return 1 + Dim * (Dim + 1);
+  return factor_count<Dim> + (kind == BatchKind::linear ? modes * (modes + 1) / 2 : 0);
 }
 
 }  // namespace
@@ -206,19 +179,12 @@ std::optional<Batch<Dim>> batch_of(const Section<Dim>& section, cell::CellType t
 
 template <int Dim>
 bool keep_in(const Batch<Dim>& batch, const Coordinates<Dim>& reference, int lane, Pack* numbers) {
-  switch (batch.kind) {
-    case BatchKind::linear:
-      return keep_linear(batch, reference, lane, numbers);
-    case BatchKind::one_point:
-      keep_one_point(batch, reference, lane, numbers);
-      return true;
-    case BatchKind::points:
-      keep_points<Dim>(reference, lane, numbers);
-      return true;
-    default:
-      keep_simplex(batch, reference, lane, numbers);
-      return true;
-  }
+  if (batch.kind == BatchKind::linear) return keep_linear(batch, reference, lane, numbers);
+  if (batch.kind == BatchKind::simplex)
+    keep_simplex(batch, reference, lane, numbers);
+  else
+    keep_factors<Dim>(reference, lane, numbers);
+  return true;
 }
 
 template <int Dim>
@@ -227,10 +193,11 @@ bool batch_forces(const Batch<Dim>& batch, const Pack* numbers, const Pack* u, P
   const double depth = depth_at(batch.section, 0);
   switch (batch.kind) {
     case BatchKind::linear:
-      batches::linear_forces<Dim>(batch, numbers, u, force);
+      batches::linear_forces<Dim>(batch, depth, numbers, u, force);
       return true;
     case BatchKind::one_point:
-      return batches::one_point_forces<Dim>(batch, mode_moduli(batch.section), numbers, u, force);
+      return batches::one_point_forces<Dim>(batch, mode_moduli(batch.section), depth, numbers, u,
+                                            force);
     case BatchKind::points:
       return batch.section.formulation == Formulation::bbar
                  ? batches::points_forces<true, Dim>(law, depth, numbers, u, force)
@@ -251,20 +218,19 @@ bool batch_energy(const Batch<Dim>& batch, const Pack* numbers, const Pack* u, P
     for (int d = 0; d < Dim * nodes; ++d) energy += 0.5 * force[static_cast<std::size_t>(d)] * u[d];
     return true;
   }
+  const double depth = depth_at(batch.section, 0);
   if (batch.kind == BatchKind::points) {
-    const double depth = depth_at(batch.section, 0);
     return batch.section.formulation == Formulation::bbar
                ? batches::points_energy<true, Dim>(batch.section.law, depth, numbers, u, energy)
                : batches::points_energy<false, Dim>(batch.section.law, depth, numbers, u, energy);
   }
   if (batch.kind == BatchKind::one_point) {
-    energy = batches::one_point_energy<Dim>(batch, mode_moduli(batch.section), numbers, u);
+    energy = batches::one_point_energy<Dim>(batch, mode_moduli(batch.section), depth, numbers, u);
     return true;
   }
-  const batches::Kept<Dim> kept(numbers, nodes);
   batches::Matrix<Dim> h;
-  batches::mean_gradient<Dim, Dim + 1>(kept.gradient, u, h);
-  energy = *kept.volume * batches::gradient_energy<Dim>(batch, h);
+  batches::simplex_gradient<Dim>(numbers + 1, u, h);
+  energy = *numbers * batches::gradient_energy<Dim>(batch, h);
   return true;
 }
 

@@ -25,32 +25,54 @@ inline constexpr std::array<std::size_t, 4> mode_product<3> = {6, 5, 3, 7};
 template <int Dim>
 inline constexpr int mode_count = Dim == 2 ? 1 : 4;
 
-/// Numbers of a cell: its volume, the mean gradients dN_k/dX_j (at Dim k + j), and for quad4 and
-/// hex8  h_a . X_j / 2^Dim  (at Dim a + j), before what the kind keeps besides.
+/// Factors of the products of coordinates in X: numbers of a quad4 or hex8, direction by direction,
+/// but the constant ones.
 template <int Dim>
-struct Kept {
-  const Pack* volume;
-  const Pack* gradient;
-  const Pack* slant;
-  const Pack* more;
-  Kept(const Pack* numbers, int nodes)
-      : volume(numbers),
-        gradient(volume + 1),
-        slant(gradient + Dim * nodes),
-        more(slant + Dim * mode_count<Dim>) {}
+struct Factors {
+  const Pack* numbers;
+  const Pack& operator()(std::size_t product, int i) const {
+    return numbers[((1 << Dim) - 1) * i + static_cast<int>(product) - 1];
+  }
+  /// Those behind them, which the kind keeps besides.
+  [[nodiscard]] const Pack* more() const { return numbers + Dim * ((1 << Dim) - 1); }
 };
 
-/// Mean displacement gradient du_i/dX_j.
-template <int Dim, int Nodes>
-inline void mean_gradient(const Pack* gradient, const Pack* u, Matrix<Dim>& h) {
-  repeat<Dim>([&](auto i) {
-    repeat<Dim>([&](auto j) {
-      Pack sum = u[i()] * gradient[j()];
-      repeat<Nodes - 1>(
-          [&](auto k) { sum += u[Dim * (k() + 1) + i()] * gradient[Dim * (k() + 1) + j()]; });
-      h(i(), j()) = sum;
+/// Mean gradients of the products over a cell, and its volume. The product of all coordinates has
+/// none.
+///
+/// Formula    b_m = dV/dc_m / V ; V = 4 t c_1 x c_2 , in space
+///            V = 8 (c_1 . c_2 x c_3 + (c_1 . c_12 x c_13 + c_2 . c_23 x c_12 + c_3 . c_13 x c_23)
+///            / 3)
+/// Source     V is the integral of det dX/dxi
+template <int Dim>
+struct MeanSlopes {
+  static constexpr int count = (1 << Dim) - 2;  ///< from product 1 on
+  std::array<std::array<Pack, static_cast<std::size_t>(Dim)>, count + 1> of;
+  Pack volume;
+};
+inline void set_mean_slopes(const Factors<2>& c, double depth, MeanSlopes<2>& out) {
+  const Pack area = c(1, 0) * c(2, 1) - c(1, 1) * c(2, 0), scale = 1 / area;
+  out.volume = 4 * depth * area;
+  out.of[1] = {scale * c(2, 1), -scale * c(2, 0)};
+  out.of[2] = {-scale * c(1, 1), scale * c(1, 0)};
+}
+inline void set_mean_slopes(const Factors<3>& c, double depth, MeanSlopes<3>& out) {
+  repeat<3>([&](auto axis) {
+    constexpr std::size_t i = 1U << axis(), j = 1U << (axis() + 1) % 3, k = 1U << (axis() + 2) % 3;
+    repeat<3>([&](auto row) {
+      constexpr int p = (row() + 1) % 3, q = (row() + 2) % 3;
+      const auto cross = [&](std::size_t m, std::size_t n) {
+        return c(m, p) * c(n, q) - c(m, q) * c(n, p);
+      };
+      out.of[i][row()] = cross(j, k) + 1.0 / 3 * cross(i | j, k | i);
+      out.of[j | k][row()] = 1.0 / 3 * (cross(i | j, j) + cross(k, k | i));
     });
   });
+  Pack eighth = Pack::Zero();
+  repeat<3>([&](auto i) { eighth += c(1, i()) * out.of[1][i()] + c(6, i()) * out.of[6][i()]; });
+  out.volume = 8 * depth * eighth;
+  const Pack scale = 1 / eighth;
+  repeat<6>([&](auto m) { repeat<3>([&](auto i) { out.of[m() + 1][i()] *= scale; }); });
 }
 
 /// Factors of the products of coordinates in the displacements, times 2^Dim.
@@ -69,51 +91,57 @@ template <int Dim>
 struct Uniform {
   static constexpr int modes = mode_count<Dim>;
   static constexpr double share = 1.0 / (1 << Dim);
+  MeanSlopes<Dim> mean;
   Products<Dim> product;
   Matrix<Dim> h;
   std::array<Pack, static_cast<std::size_t>(Dim* modes)> q;  ///< gamma_a . u_i at Dim a + i
 };
 template <int Dim>
-inline void measure(const Kept<Dim>& kept, const Pack* u, Uniform<Dim>& out) {
+inline void measure(const Factors<Dim>& c, double depth, const Pack* u, Uniform<Dim>& out) {
+  set_mean_slopes(c, depth, out.mean);
   set_products<Dim>(u, out.product);
-  mean_gradient<Dim, 1 << Dim>(kept.gradient, u, out.h);
+  repeat<Dim>([&](auto i) {
+    repeat<Dim>([&](auto j) {
+      Pack sum = out.product[i()][1] * out.mean.of[1][j()];
+      repeat<MeanSlopes<Dim>::count - 1>(
+          [&](auto m) { sum += out.product[i()][m() + 2] * out.mean.of[m() + 2][j()]; });
+      out.h(i(), j()) = Uniform<Dim>::share * sum;
+    });
+  });
   repeat<mode_count<Dim>>([&](auto a) {
     repeat<Dim>([&](auto i) {
       Pack sum = Uniform<Dim>::share * out.product[i()][mode_product<Dim>[a()]];
-      repeat<Dim>([&](auto j) { sum -= kept.slant[Dim * a() + j()] * out.h(i(), j()); });
+      repeat<Dim>([&](auto j) { sum -= c(mode_product<Dim>[a()], j()) * out.h(i(), j()); });
       out.q[Dim * a() + i()] = sum;
     });
   });
 }
-/// Forces of what works on the gradient (volume included), on the modes and on the linear products
-/// (share included).
+/// Forces of what works on the gradient (volume included), on the modes and on the linear products.
 template <int Dim>
-inline void spread(const Kept<Dim>& kept, Matrix<Dim>& on_gradient,
+inline void spread(const Factors<Dim>& c, const MeanSlopes<Dim>& mean, Matrix<Dim>& on_gradient,
                    const decltype(Uniform<Dim>::q)& on_mode, const Matrix<Dim>* on_linear,
                    Pack* force) {
-  constexpr double share = Uniform<Dim>::share;
   repeat<mode_count<Dim>>([&](auto a) {
     repeat<Dim>([&](auto i) {
       repeat<Dim>([&](auto j) {
-        on_gradient(i(), j()) -= on_mode[Dim * a() + i()] * kept.slant[Dim * a() + j()];
+        on_gradient(i(), j()) -= on_mode[Dim * a() + i()] * c(mode_product<Dim>[a()], j());
       });
     });
   });
   repeat<Dim>([&](auto i) {
     OfCorners<Dim, Pack> v;
-    v[0] = Pack::Zero();
-    repeat<Dim>([&](auto j) {
-      v[std::size_t{1} << j()] = on_linear ? share * (*on_linear)(i(), j()) : Pack::Zero();
+    v.front() = v.back() = Pack::Zero();
+    repeat<MeanSlopes<Dim>::count>([&](auto m) {
+      Pack sum = on_gradient(i(), 0) * mean.of[m() + 1][0];
+      repeat<Dim - 1>(
+          [&](auto j) { sum += on_gradient(i(), j() + 1) * mean.of[m() + 1][j() + 1]; });
+      v[m() + 1] = sum;
     });
-    repeat<mode_count<Dim>>(
-        [&](auto a) { v[mode_product<Dim>[a()]] = share * on_mode[Dim * a() + i()]; });
+    if (on_linear) repeat<Dim>([&](auto j) { v[std::size_t{1} << j()] += (*on_linear)(i(), j()); });
+    repeat<mode_count<Dim>>([&](auto a) { v[mode_product<Dim>[a()]] += on_mode[Dim * a() + i()]; });
+    repeat<(1 << Dim) - 1>([&](auto m) { v[m() + 1] *= Uniform<Dim>::share; });
     from_products(v);
-    repeat<1 << Dim>([&](auto c) {
-      constexpr int k = corner_node<Dim>[c()];
-      Pack sum = v[c()];
-      repeat<Dim>([&](auto j) { sum += on_gradient(i(), j()) * kept.gradient[Dim * k + j()]; });
-      force[Dim * k + i()] = sum;
-    });
+    repeat<1 << Dim>([&](auto at) { force[Dim * corner_node<Dim>[at()] + i()] = v[at()]; });
   });
 }
 
@@ -153,24 +181,24 @@ template <int Dim>
 }
 
 template <int Dim>
-[[gnu::flatten]] void linear_forces(const Batch<Dim>& batch, const Pack* numbers, const Pack* u,
-                                    Pack* force) {
+[[gnu::flatten]] void linear_forces(const Batch<Dim>& batch, double depth, const Pack* numbers,
+                                    const Pack* u, Pack* force) {
   constexpr int C = components<Dim>, M = Dim * mode_count<Dim>;
-  const Kept<Dim> kept(numbers, 1 << Dim);
+  const Factors<Dim> c{numbers};
   Uniform<Dim> at;
-  measure(kept, u, at);
+  measure(c, depth, u, at);
   Strains<Dim> strain, stress;
   small_strain<Dim>(at.h, strain);
   for (int i = 0; i < C; ++i) {
     Pack sum = batch.stiffness(i, 0) * strain[0];
     for (int j = 1; j < C; ++j) sum += batch.stiffness(i, j) * strain[static_cast<std::size_t>(j)];
-    stress[static_cast<std::size_t>(i)] = *kept.volume * sum;
+    stress[static_cast<std::size_t>(i)] = at.mean.volume * sum;
   }
   Matrix<Dim> on_gradient;
   for (int i = 0; i < Dim; ++i)
     for (int j = 0; j < Dim; ++j) on_gradient(i, j) = stress[component(i, j)];
   std::array<Pack, M> w;
-  const Pack* k = kept.more;  // the upper triangle, row by row
+  const Pack* k = c.more();  // the upper triangle, row by row
   repeat<M>([&](auto r) { w[r()] = Pack::Zero(); });
   repeat<M>([&](auto r) {
     Pack sum = w[r()] + *k++ * at.q[r()];
@@ -183,7 +211,7 @@ template <int Dim>
     });
     w[r()] = sum;
   });
-  spread<Dim>(kept, on_gradient, w, nullptr, force);
+  spread<Dim>(c, at.mean, on_gradient, w, nullptr, force);
 }
 
 /// What the modes of reduced.hpp do: see there for the energy.
@@ -238,34 +266,40 @@ inline void mode_work(const decltype(Uniform<Dim>::q)& q, const Matrix<Dim>& bas
 /// Input      moduli: E' and mu, as reduced.hpp has them
 template <int Dim>
 inline void one_point_modes(const Batch<Dim>& batch, const std::array<double, 2>& moduli,
-                            const Kept<Dim>& kept, const Uniform<Dim>& at,
+                            const Factors<Dim>& c, const Uniform<Dim>& at,
                             decltype(Uniform<Dim>::q)& on_mode, Matrix<Dim>& on_base) {
   Matrix<Dim> base;
   const bool finite = batch.section.kinematics == Kinematics::finite;
   for (int i = 0; i < Dim; ++i)
-    for (int j = 0; j < Dim; ++j) base(i, j) = kept.more[Dim * i + j];
+    for (int j = 0; j < Dim; ++j) base(i, j) = c(std::size_t{1} << static_cast<unsigned>(j), i);
+  std::array<Pack, Dim> inverse;
+  for (int j = 0; j < Dim; ++j) {
+    Pack square = base(0, j) * base(0, j);
+    for (int i = 1; i < Dim; ++i) square += base(i, j) * base(i, j);
+    inverse[static_cast<std::size_t>(j)] = 1 / square;
+  }
   if (finite)
     repeat<Dim>([&](auto i) {
       repeat<Dim>([&](auto j) {
         base(i(), j()) += Uniform<Dim>::share * at.product[i()][std::size_t{1} << j()];
       });
     });
-  mode_work<Dim>(at.q, base, kept.more + Dim * Dim, moduli[0] * *kept.volume,
-                 moduli[1] * *kept.volume, on_mode, on_base);
+  mode_work<Dim>(at.q, base, inverse.data(), moduli[0] * at.mean.volume, moduli[1] * at.mean.volume,
+                 on_mode, on_base);
 }
 template <int Dim>
 [[nodiscard, gnu::flatten]] bool one_point_forces(const Batch<Dim>& batch,
-                                                  const std::array<double, 2>& moduli,
+                                                  const std::array<double, 2>& moduli, double depth,
                                                   const Pack* numbers, const Pack* u, Pack* force) {
-  const Kept<Dim> kept(numbers, 1 << Dim);
+  const Factors<Dim> c{numbers};
   Uniform<Dim> at;
-  measure(kept, u, at);
+  measure(c, depth, u, at);
   Matrix<Dim> on_gradient, on_base;
-  if (!work_on_gradient<Dim>(batch.section, at.h, *kept.volume, on_gradient)) return false;
+  if (!work_on_gradient<Dim>(batch.section, at.h, at.mean.volume, on_gradient)) return false;
   const bool finite = batch.section.kinematics == Kinematics::finite;
   decltype(at.q) on_mode;
-  one_point_modes<Dim>(batch, moduli, kept, at, on_mode, on_base);
-  spread<Dim>(kept, on_gradient, on_mode, finite ? &on_base : nullptr, force);
+  one_point_modes<Dim>(batch, moduli, c, at, on_mode, on_base);
+  spread<Dim>(c, at.mean, on_gradient, on_mode, finite ? &on_base : nullptr, force);
   return true;
 }
 
@@ -279,29 +313,44 @@ template <int Dim>
 /// In finite strain; of a quadratic form in the modes  sum_a (work on q_a) . q_a / 2.
 template <int Dim>
 [[nodiscard]] Pack one_point_energy(const Batch<Dim>& batch, const std::array<double, 2>& moduli,
-                                    const Pack* numbers, const Pack* u) {
-  const Kept<Dim> kept(numbers, 1 << Dim);
+                                    double depth, const Pack* numbers, const Pack* u) {
+  const Factors<Dim> c{numbers};
   Uniform<Dim> at;
-  measure(kept, u, at);
+  measure(c, depth, u, at);
   decltype(at.q) on_mode;
   Matrix<Dim> on_base;
-  one_point_modes<Dim>(batch, moduli, kept, at, on_mode, on_base);
+  one_point_modes<Dim>(batch, moduli, c, at, on_mode, on_base);
   Pack sum = Pack::Zero();
   for (std::size_t m = 0; m < on_mode.size(); ++m) sum += on_mode[m] * at.q[m];
-  return *kept.volume * gradient_energy(batch, at.h) + 0.5 * sum;
+  return at.mean.volume * gradient_energy(batch, at.h) + 0.5 * sum;
 }
 
+/// Displacement gradient of a tri3 or tet4.
+///
+/// Input      gradient: dN_k/dX_j at Dim k + j
+template <int Dim>
+inline void simplex_gradient(const Pack* gradient, const Pack* u, Matrix<Dim>& h) {
+  repeat<Dim>([&](auto i) {
+    repeat<Dim>([&](auto j) {
+      Pack sum = u[i()] * gradient[j()];
+      repeat<Dim>(
+          [&](auto k) { sum += u[Dim * (k() + 1) + i()] * gradient[Dim * (k() + 1) + j()]; });
+      h(i(), j()) = sum;
+    });
+  });
+}
 template <int Dim>
 [[nodiscard, gnu::flatten]] bool simplex_forces(const Batch<Dim>& batch, const Pack* numbers,
                                                 const Pack* u, Pack* force) {
-  const Kept<Dim> kept(numbers, Dim + 1);
+  const Pack& volume = *numbers;
+  const Pack* const gradient = numbers + 1;
   Matrix<Dim> h, work;
-  mean_gradient<Dim, Dim + 1>(kept.gradient, u, h);
-  if (!work_on_gradient<Dim>(batch.section, h, *kept.volume, work)) return false;
+  simplex_gradient<Dim>(gradient, u, h);
+  if (!work_on_gradient<Dim>(batch.section, h, volume, work)) return false;
   for (int k = 0; k <= Dim; ++k)
     for (int i = 0; i < Dim; ++i) {
-      Pack sum = work(i, 0) * kept.gradient[Dim * k];
-      for (int j = 1; j < Dim; ++j) sum += work(i, j) * kept.gradient[Dim * k + j];
+      Pack sum = work(i, 0) * gradient[Dim * k];
+      for (int j = 1; j < Dim; ++j) sum += work(i, j) * gradient[Dim * k + j];
       force[Dim * k + i] = sum;
     }
   return true;
