@@ -6,7 +6,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "osculate/body/free_turn.hpp"
 #include "osculate/model/temperatures.hpp"
@@ -315,8 +314,7 @@ bool BasicSystem<Dim>::Impl::Explicit::set_accelerations(double h, solve::Explic
   const Forces& f = system.last.forces;
   const Eigen::Index dofs = inverse.size(), turn_count = (dofs + dofs_a_turn - 1) / dofs_a_turn;
   const double half = 0.5 * h;
-  std::vector<Works> of_turn(static_cast<std::size_t>(turn_count));
-  std::vector<double> squares(of_turn.size());
+  of_turns.assign(static_cast<std::size_t>(turn_count), {});
 #pragma omp parallel for num_threads(system.bulk.threads) schedule(static)
   for (Eigen::Index turn = 0; turn < turn_count; ++turn) {
     const Eigen::Index begin = turn * dofs_a_turn, n = std::min(dofs_a_turn, dofs - begin);
@@ -324,7 +322,7 @@ bool BasicSystem<Dim>::Impl::Explicit::set_accelerations(double h, solve::Explic
     const auto work_of = [&](const Vector& past, const Vector& force) {
       return half * (here(past) + here(force)).dot(here(m.velocity));
     };
-    Works& w = of_turn[static_cast<std::size_t>(turn)];
+    Works& w = of_turns[static_cast<std::size_t>(turn)];
     Eigen::Matrix<double, Eigen::Dynamic, 1, 0, dofs_a_turn, 1> sum = here(f.internal);
     w.internal = work_of(past_internal, f.internal);
     if (!active_set.empty()) {
@@ -335,14 +333,16 @@ bool BasicSystem<Dim>::Impl::Explicit::set_accelerations(double h, solve::Explic
       sum -= here(f.external);
       w.external = work_of(past_external, f.external);
     }
-    squares[static_cast<std::size_t>(turn)] = sum.squaredNorm();
+    w.square = sum.squaredNorm();
     m.acceleration.segment(begin, n) = -sum.cwiseProduct(here(inverse));
   }
   for (const Dof d : gathered) m.acceleration[d] = -total[d] * inverse[d];
-  for (const Works& w : of_turn) {
+  works.square = 0;
+  for (const Works& w : of_turns) {
     works.internal += w.internal;
     works.contact += w.contact;
     works.external += w.external;
+    works.square += w.square;
   }
   for (Eigen::Index d = 0; damping > 0 && d < dofs; ++d) {
     if (!(inverse[d] > 0)) continue;
@@ -350,7 +350,7 @@ bool BasicSystem<Dim>::Impl::Explicit::set_accelerations(double h, solve::Explic
     a = (a - damping * m.velocity[d]) / (1 + 0.5 * h * damping);
     damping_force[d] = damping * mass[d] * (m.velocity[d] + 0.5 * h * a);
   }
-  return std::isfinite(std::accumulate(squares.begin(), squares.end(), 0.0));
+  return std::isfinite(works.square);
 }
 
 /// Angular momenta at the end of a time step, damped as the velocities.

@@ -44,6 +44,7 @@ struct BasicSystem<Dim>::Impl::Explicit {
   /// Works since the increment began.
   struct Works {
     double internal = 0, contact = 0, external = 0, damping = 0, supports = 0;
+    double square = 0;  ///< of all forces of now: whether they are numbers
   };
 
   Impl& system;
@@ -75,6 +76,7 @@ struct BasicSystem<Dim>::Impl::Explicit {
   Vector total;
   Vector past_held;  ///< total at `held`
   Works works;
+  std::vector<Works> of_turns;  ///< of the time step, some dofs after the other
   StableStep stable;
   double energy_before = 0;     ///< kinetic, at the beginning of the increment
   double held_before = 0;       ///< that of what is prescribed
