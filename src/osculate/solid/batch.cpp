@@ -2,7 +2,7 @@
 
 #include <Eigen/LU>
 
-#include "osculate/solid/batch_kernels.hpp"
+#include "osculate/solid/batch_points.hpp"
 #include "osculate/solid/points.hpp"
 #include "osculate/solid/reduced.hpp"
 
