@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "osculate/la/accuracy.hpp"
@@ -71,6 +73,21 @@ Eigen::VectorXd scale_of(const SparseMatrix& k, bool symmetric) {
   return scale;
 }
 
+/// A hash of the pattern and of what may change (FNV-1a by words).
+std::uint64_t mark_of(const SparseMatrix& k, Symmetry symmetry, std::span<const Index> changing) {
+  std::uint64_t mark = 14695981039346656037U;
+  const auto add = [&](std::span<const Index> values) {
+    for (const Index value : values)
+      mark = (mark ^ static_cast<std::uint32_t>(value)) * 1099511628211U;
+  };
+  const Index kind = static_cast<Index>(symmetry);
+  add({&kind, 1});
+  add(k.row_start);
+  add(k.column);
+  add(changing);
+  return mark;
+}
+
 }  // namespace
 
 struct Condensed::Impl {
@@ -82,8 +99,9 @@ struct Condensed::Impl {
   SchurFactors inside;
   std::unique_ptr<Dense> dense = std::make_unique<Dense>();
   std::vector<Index> changing;
-  bool condensed = false;  ///< the last factors
-  SparseMatrix matrix;     ///< theirs, where condensed
+  std::uint64_t too_dear = 0;  ///< the pattern for which a dense matrix was dearer last
+  bool condensed = false;      ///< the last factors
+  SparseMatrix matrix;         ///< theirs, where condensed
   std::uint64_t version = 0;
   Symmetry symmetry = Symmetry::unsymmetric;
   bool symmetric = false;
@@ -108,14 +126,19 @@ struct Condensed::Impl {
 };
 
 /// A dense matrix of the few beside the sparse one of the many, in operations: a function of the
-/// pattern alone.
+/// pattern alone. Where it is dearer no more is kept of the analysis than for which pattern.
 bool Condensed::Impl::pays(const SparseMatrix& k, Symmetry symmetry) {
   constexpr double fewest = 4, worth_it = 3, most = 4000;  // 4000: a dense matrix of 128 MB
   const auto c = static_cast<double>(changing.size());
   if (changing.empty() || c > most || fewest * c > k.n || changing.back() >= k.n) return false;
-  if (!inside.analyse(k, symmetry, changing)) return false;
+  const std::uint64_t pattern = mark_of(k, symmetry, changing);
+  if (pattern == too_dear) return false;
   const double dense_operations = (symmetric ? 1.0 : 2.0) / 3.0 * c * c * c;
-  return inside.operations() > worth_it * dense_operations;
+  if (inside.analyse(k, symmetry, changing) && inside.operations() > worth_it * dense_operations)
+    return true;
+  inside.forget();
+  too_dear = pattern;
+  return false;
 }
 
 Eigen::MatrixXd Condensed::Impl::small_matrix(const SparseMatrix& k) const {

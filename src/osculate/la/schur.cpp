@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "osculate/la/mumps_library.hpp"
 #include "osculate/la/ordering.hpp"
@@ -159,10 +160,13 @@ bool SchurFactors::holds_factors() const { return impl_->factored; }
 
 void SchurFactors::forget() {
   const LibraryCall guard(impl_->blas_threads);
-  impl_->close();
-  impl_->values = {};
-  impl_->schur.resize(0, 0);
-  impl_->work.resize(0, 0);
+  Impl& s = *impl_;
+  s.close();
+  const auto release = [](auto&... room) { ((room = std::remove_cvref_t<decltype(room)>()), ...); };
+  release(s.values, s.entries, s.rows, s.columns, s.order, s.list);
+  release(s.row_start, s.column, s.c, s.place);
+  s.schur.resize(0, 0);
+  s.work.resize(0, 0);
 }
 
 double SchurFactors::operations() const { return impl_->id.rinfog[0]; }
