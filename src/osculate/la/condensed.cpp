@@ -133,6 +133,7 @@ bool Condensed::Impl::pays(const SparseMatrix& k, Symmetry symmetry) {
   if (changing.empty() || c > most || fewest * c > k.n || changing.back() >= k.n) return false;
   const std::uint64_t pattern = mark_of(k, symmetry, changing);
   if (pattern == too_dear) return false;
+  if (!inside.analysed()) whole.forget();  // its factors serve no more, and are large
   const double dense_operations = (symmetric ? 1.0 : 2.0) / 3.0 * c * c * c;
   if (inside.analyse(k, symmetry, changing) && inside.operations() > worth_it * dense_operations)
     return true;

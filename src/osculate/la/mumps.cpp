@@ -1,6 +1,7 @@
 #include "osculate/la/mumps.hpp"
 
 #include <dmumps_c.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <chrono>
@@ -130,8 +131,15 @@ bool Mumps::Impl::begin(int kind) {
 }
 
 void Mumps::Impl::set_pattern(const SparseMatrix& k) {
+  std::size_t entries = 0;
+  for (Index i = 0; i < k.n; ++i)
+    for (Index e = k.row_start[at(i)]; e < k.row_start[at(i) + 1]; ++e)
+      if (kept(i, k.column[at(e)])) ++entries;
   rows.clear();
   columns.clear();
+  rows.reserve(entries);
+  columns.reserve(entries);
+  values.reserve(entries);
   for (Index i = 0; i < k.n; ++i)
     for (Index e = k.row_start[at(i)]; e < k.row_start[at(i) + 1]; ++e) {
       if (!kept(i, k.column[at(e)])) continue;
@@ -163,7 +171,6 @@ bool Mumps::Impl::same_pattern(const SparseMatrix& k) const {
 /// Returns the first row with an entry that is not finite, or -1.
 Index Mumps::Impl::set_values(const SparseMatrix& k) {
   values.clear();
-  values.reserve(k.value.size());
   for (Index i = 0; i < k.n; ++i)
     for (Index e = k.row_start[at(i)]; e < k.row_start[at(i) + 1]; ++e) {
       if (!std::isfinite(k.value[at(e)])) return i;
@@ -226,6 +233,9 @@ FactorReport Mumps::Impl::prepare(const SparseMatrix& k, std::uint64_t wanted_ve
   // Where there is less in the whole machine, the system would end the program without a word.
   if (const double all = core::memory_in_all(); all > 0 && needed_bytes() > all)
     throw NotEnoughMemory(memory_text());
+  // What was freed lies between what was kept, in pieces too small for the factors.
+  constexpr double large = 8e6;
+  if (needed_bytes() > large) (void)malloc_trim(0);
   report.seconds_analysis = seconds_since(begun);
   return report;
 }
@@ -363,6 +373,13 @@ FactorReport Mumps::factor(const SparseMatrix& k, std::uint64_t pattern_version,
                            Symmetry symmetry) {
   const Spent spent(impl_->seconds);
   return impl_->factor(k, pattern_version, symmetry);
+}
+
+void Mumps::forget() {
+  Impl& s = *impl_;
+  if (!s.open) return;
+  const LibraryCall guard(s.options.blas_threads);
+  s.close();
 }
 
 double Mumps::seconds() const { return impl_->seconds; }

@@ -30,6 +30,8 @@ class Mumps final : public LinearSolver {
   SolveStatus solve(Eigen::VectorXd& rhs_in_solution_out) override;
   SolveStatus solve_once(Eigen::VectorXd& rhs_in_solution_out) override;
   SolveStatus solve(Eigen::MatrixXd& rhs_in_solution_out) override;
+  /// Gives the memory back; `factor` is to follow.
+  void forget();
   [[nodiscard]] double seconds() const override;
 
  private:

@@ -60,21 +60,28 @@ bool SchurFactors::Impl::begin() {
 }
 
 bool SchurFactors::Impl::set_pattern(const SparseMatrix& k) {
+  const auto each = [&](const auto& take) {
+    for (Index i = 0; i < k.n; ++i)
+      for (Index e = k.row_start[static_cast<std::size_t>(i)];
+           e < k.row_start[static_cast<std::size_t>(i) + 1]; ++e) {
+        const Index j = k.column[static_cast<std::size_t>(e)];
+        if (symmetry != Symmetry::unsymmetric && i > j) continue;
+        if (place[static_cast<std::size_t>(i)] < 0 || place[static_cast<std::size_t>(j)] < 0)
+          take(i, j, static_cast<std::size_t>(e));
+      }
+  };
+  std::size_t count_of_entries = 0;
+  each([&](Index, Index, std::size_t) { ++count_of_entries; });
   std::vector<int> new_rows, new_columns;
-  new_rows.reserve(rows.size());
-  new_columns.reserve(rows.size());
+  new_rows.reserve(count_of_entries);
+  new_columns.reserve(count_of_entries);
   entries.clear();
-  for (Index i = 0; i < k.n; ++i)
-    for (Index e = k.row_start[static_cast<std::size_t>(i)];
-         e < k.row_start[static_cast<std::size_t>(i) + 1]; ++e) {
-      const Index j = k.column[static_cast<std::size_t>(e)];
-      if (symmetry != Symmetry::unsymmetric && i > j) continue;
-      if (place[static_cast<std::size_t>(i)] >= 0 && place[static_cast<std::size_t>(j)] >= 0)
-        continue;
-      entries.push_back(static_cast<std::size_t>(e));
-      new_rows.push_back(i + 1);
-      new_columns.push_back(j + 1);
-    }
+  entries.reserve(count_of_entries);
+  each([&](Index i, Index j, std::size_t e) {
+    entries.push_back(e);
+    new_rows.push_back(i + 1);
+    new_columns.push_back(j + 1);
+  });
   if (rows == new_rows && columns == new_columns) return false;  // the library points to them
   rows = std::move(new_rows);
   columns = std::move(new_columns);
@@ -156,6 +163,7 @@ bool SchurFactors::analyse(const SparseMatrix& k, Symmetry symmetry, std::span<c
 }
 
 int SchurFactors::count() const { return impl_->count; }
+bool SchurFactors::analysed() const { return impl_->analysed; }
 bool SchurFactors::holds_factors() const { return impl_->factored; }
 
 void SchurFactors::forget() {
