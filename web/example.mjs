@@ -206,9 +206,10 @@ export function page(data) {
   const parts = {
     '@TITLE@': data.title.replace(/&/g, '&amp;').replace(/</g, '&lt;'),
     '@DATA@': JSON.stringify(data).replace(/</g, '\\u003c'),
+    '@CONNECT@': "'none'",
     '@BUNDLE@': readFileSync(join(here, 'dist/report.js'), 'utf8'),
   };
-  return template.replace(/@TITLE@|@DATA@|@BUNDLE@/g, (mark) => parts[mark]);
+  return template.replace(/@TITLE@|@CONNECT@|@DATA@|@BUNDLE@/g, (mark) => parts[mark]);
 }
 
 export function example({ cells = 1500, frames = 40, failed = false, motion = 1 } = {}) {

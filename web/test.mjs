@@ -10,6 +10,7 @@ const { largestFrame, visible } = await import('./src/bodies.js');
 const { along } = await import('./src/body_section.js');
 const { section, tetrahedra } = await import('./src/cut.js');
 const { labelsOf } = await import('./src/labels.js');
+const live = await import('./src/live.js');
 const { principal } = await import('./src/stress.js');
 const { bounds } = await import('./src/camera.js');
 const { readBody, readHistory } = await import('./src/data.js');
@@ -194,4 +195,61 @@ test('only states that there can be are counted, and each has a mark of its own'
   const contact = [{ x: [[0, 0], [1, 0]], status: [3, 0] }];
   const body = readBody({ mesh: square, frames: [{}, { contact }] });
   assert.deepEqual([...body.states()].sort(), [0, 3]);
+});
+
+const entry = (step, number, frame, increment) => ({ step, row: [step, number, number], frame, increment });
+const done = (iterations) => ({ iterations, residuals: [0.1, 1e-9], energies: [1, 1e-12] });
+const state = (patch) => ({ run: 'a', from: 0, status: 'running', model: 'm.yaml', message: '', columns: ['step', 'increment', 'time'],
+  entries: [], iterations: [], log: [], ...patch });
+
+test('what the server tells is added to what is known, and another run begins anew', () => {
+  let known = live.withState(live.nothing(), state({ entries: [entry(1, 0, true), entry(1, 1, true, done(2))] }));
+  known.frames.set(0, {});
+  known.base = { title: 't' };
+  known = live.withState(known, state({ from: 2, entries: [entry(1, 2, true, done(3))] }));
+  assert.deepEqual(known.entries.map((e) => e.row[1]), [0, 1, 2]);
+  assert.equal(known.frames.size, 1);
+  const other = live.withState(known, state({ run: 'b', entries: [entry(1, 0, false)] }));
+  assert.deepEqual([other.entries.length, other.frames.size, other.base], [1, 0, null]);
+});
+
+test('of many frames some are shown, evenly and with the last one', () => {
+  const entries = (n) => Array.from({ length: n }, (_, i) => entry(1, i, i % 2 === 0));
+  assert.deepEqual(live.chosenFrames(entries(5), 60), [0, 2, 4]);
+  const some = live.chosenFrames(entries(401), 60);
+  assert.ok(some.length <= 60 && some.length > 25);
+  assert.deepEqual([some[0], some.at(-1)], [0, 400]);
+  assert.deepEqual(live.chosenFrames([], 60), []);
+  assert.equal(live.mostFrames({ dimension: 3, points: { shape: [100000, 3] } }), 5);
+});
+
+test('a report is composed of a run that goes on', () => {
+  const base = { title: 't', status: 'running', mesh: square, summary: { steps: [{ name: 'press' }, { name: 'push' }] } };
+  const line = (y) => [{ name: 'r', body: 1, polyline: [[0, y], [1, y]] }];
+  const entries = [entry(1, 0, true), entry(1, 1, true, done(2)), entry(2, 1, false, done(4))];
+  const frames = new Map([[1, { u: [1], rigid: line(2) }], [0, { u: [0], rigid: line(1) }]]);
+  const report = live.compose({ state: state({}), entries, frames, base });
+  assert.deepEqual(report.summary.steps.map((s) => [s.name, s.increments.map((i) => i.iterations)]), [['press', [2]], ['push', [4]]]);
+  assert.deepEqual(report.iterations[1], { step: 2, increment: 1, residuals: [0.1, 1e-9], energies: [1, 1e-12] });
+  assert.deepEqual(report.frames.map((f) => f.u), [[0], [1]]);
+  assert.deepEqual(report.rigid[0].polyline, [[[0, 1], [1, 1]], [[0, 2], [1, 2]]]);
+  assert.equal(report.status, 'running');
+  const killed = live.compose({ state: state({ status: 'killed' }), entries, frames, base: null });
+  assert.equal(killed.status, 'failed');
+  assert.match(killed.message, /ended without a word/);
+  assert.equal(killed.title, 'm.yaml');
+  assert.equal(killed.summary.steps[1].name, 'step 2');
+});
+
+test('the increment under way is told with its attempts', () => {
+  const rows = [[1, 2, 1, 1, 0.5, 1, 1, 3, 0, 0, 2], [1, 2, 1, 2, 0.7, 2, 1, 3, 0, 0, 2], [1, 2, 0.75, 1, 0.1, 1, 1, 4, 0, 0, 1]];
+  const known = { state: state({ iterations: rows }), entries: [entry(1, 1, true, done(1))], base: null };
+  const now = live.underWay(known);
+  assert.equal(now.text, 'step 1, increment 2 to time 0.75: iteration 1, after 1 other attempt');
+  assert.equal(now.counts, 'open 4, closed 1');
+  assert.deepEqual(now.curves[0].y, [0.5, 0.7, NaN, 0.1]);
+  assert.deepEqual(now.curves[0].x, [1, 2, NaN, 3]);
+  known.entries.push(entry(1, 2, true, done(3)));
+  assert.match(live.underWay(known).text, /converged after 3 iterations/);
+  assert.equal(live.underWay({ state: state({}), entries: [], base: null }), null);
 });

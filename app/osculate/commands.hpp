@@ -41,6 +41,7 @@ void add_domain(CLI::App& app, int& exit_code);
 void add_convert(CLI::App& app, int& exit_code);
 void add_ccx(CLI::App& app, int& exit_code);
 void add_compare(CLI::App& app, int& exit_code);
+void add_view(CLI::App& app, int& exit_code);
 void add_completion(CLI::App& app, int& exit_code);
 
 /// All commands with their options as a manual page (man).

@@ -29,6 +29,7 @@ int run_program(int argc, char** argv) {
   add_convert(app, exit_code);
   add_ccx(app, exit_code);
   add_compare(app, exit_code);
+  add_view(app, exit_code);
   add_completion(app, exit_code);
   // A link of the name ccx stands for `osculate ccx`: programs call it without a command.
   std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);

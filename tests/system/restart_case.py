@@ -7,7 +7,7 @@ import tempfile
 import unittest
 
 PROGRAM = sys.argv[1]
-OWN_FILES = ("log.txt", "summary.json", "report.json", "report.html", "journal.bin",
+OWN_FILES = ("log.txt", "iterations.csv", "summary.json", "report.json", "report.html", "journal.bin",
              "checkpoint.bin", "checkpoint.previous.bin")
 
 

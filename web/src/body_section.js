@@ -5,21 +5,21 @@ import { choice, el, tick, watchWidth } from './dom.js';
 import { num } from './format.js';
 import { labelChoice } from './labels.js';
 import { plot } from './plot.js';
-import { autoScale, button, frameKeys, onceAFrame, player, savePicture } from './player.js';
+import { autoScale, button, frameKeys, lookOf, onceAFrame, placeCamera, player, savePicture } from './player.js';
 import { stateWords } from './states.js';
 import { onTheme } from './theme.js';
 import { createView, draw, probe, resize } from './view.js';
 import { runs, statusStyle } from './contact_layer.js';
 
 /** State of the view; `frameChanged(frame)` lets other plots follow; `preset` changes its first state. */
-export function bodySection(body, frameChanged, { id = 'body', title = 'Deformed body', preset = {} } = {}) {
+export function bodySection(body, frameChanged, { id = 'body', title = 'Deformed body', preset = {}, camera = null } = {}) {
   const canvas = el('canvas', { tabIndex: 0, class: 'body', 'aria-label': 'deformed body' });
   const view = createView(canvas, body);
   const hint = el('div', { class: 'tip', hidden: true });
   const host = el('div', { class: 'canvas-host' }, canvas, hint);
   const preferred = body.fieldNames.find((name) => /mises/i.test(name)) ?? body.fieldNames[0];
   const state = {
-    frame: largestFrame(body.largestContact), looks: [], labels: 'none', field: preferred, scale: 1, range: 'all', map: 'sequential',
+    frame: largestFrame(body.largestContact), looks: [], labels: 'none', field: preferred, scaled: 1, scale: 1, range: 'all', map: 'sequential',
     bands: false, lines: true, ghost: false, contact: 'profile', points: true, ...preset,
   };
   const self = { body, view, state, canvas, host, hint, frameChanged };
@@ -32,14 +32,18 @@ export function bodySection(body, frameChanged, { id = 'body', title = 'Deformed
     controls(self), host, self.player.bar, self.contact.node);
   watchWidth(host, (width) => {
     resize(view, width, heightFor(view, state.scale, width));
-    fit(view, state.scale);
+    placeCamera(view, camera, () => fit(view, state.scale));
+    camera = null;
     refresh(self);
   });
   pointer(self);
   frameKeys(canvas, self.player, shown, show);
   onTheme(() => refresh(self));
   showFrame(self, state.frame);
-  return { section, show: (frame) => showFrame(self, frame) };
+  return {
+    section, show: (frame) => showFrame(self, frame), playing: self.player.playing,
+    look: () => lookOf(self, [['cx', 'cy', 'k'], []]),
+  };
 }
 
 function heightFor(view, scale, width) {
@@ -72,9 +76,10 @@ function controls(self) {
   const auto = autoScale(body);
   const scales = [[1, '1 (true)'], ['auto', `auto (${num(auto)})`],
     ...[0, 2, 5, 10, 100, 1000].map((v) => [v, String(v)])];
-  const warning = el('span', { class: 'warning', hidden: true }, 'scaled: gaps between bodies are not true');
+  if (state.scaled === 'auto') state.scale = auto;
+  const warning = el('span', { class: 'warning', hidden: state.scale === 1 }, 'scaled: gaps between bodies are not true');
   const rescale = (v) => {
-    change(self, { scale: v === 'auto' ? auto : Number(v) });
+    change(self, { scaled: v, scale: v === 'auto' ? auto : Number(v) });
     warning.hidden = state.scale === 1;
     fit(self.view, state.scale);
   };
@@ -88,13 +93,13 @@ function controls(self) {
       (range) => change(self, { range })),
     choice('Colours', [['sequential', 'sequential'], ['diverging', 'diverging about 0']], state.map,
       (map) => change(self, { map })),
-    choice('Displacements \u00d7', scales, 1, rescale),
+    choice('Displacements \u00d7', scales, state.scaled, rescale),
     touching && choice('Contact', contactModes, state.contact, (contact) => change(self, { contact })),
     touching && tick('states', state.points, (points) => change(self, { points })),
     tick('mesh', state.lines, (lines) => change(self, { lines })),
     tick('bands', state.bands, (bands) => change(self, { bands })),
     tick('undeformed', state.ghost, (ghost) => change(self, { ghost })),
-    labelChoice(body, (labels) => change(self, { labels })),
+    labelChoice(body, state.labels, (labels) => change(self, { labels })),
     bodyChoices(body.bodies, state, () => refresh(self)),
     warning,
     el('span', { class: 'buttons' },

@@ -68,6 +68,7 @@ export function bounds(view, scale) {
 
 /** Shows everything; keeps room for the colour bar on the right. */
 export function fit(view, scale) {
+  view.moved = false;
   const [x0, y0, x1, y1] = bounds(view, scale);
   const free = view.W - BAR * view.dpr;
   const size = Math.max(x1 - x0, y1 - y0, 1e-300);
@@ -82,6 +83,7 @@ export function toScreen(view, x, y) {
 }
 
 export function zoom(view, factor, px = view.W / 2, py = view.H / 2) {
+  view.moved = true;
   const wx = view.cx + (px - view.W / 2) / view.k;
   const wy = view.cy - (py - view.H / 2) / view.k;
   view.k *= factor;
@@ -90,6 +92,7 @@ export function zoom(view, factor, px = view.W / 2, py = view.H / 2) {
 }
 
 export function pan(view, dx, dy) {
+  view.moved = true;
   view.cx -= dx / view.k;
   view.cy += dy / view.k;
 }

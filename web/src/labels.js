@@ -6,10 +6,10 @@ import { css } from './theme.js';
 export const nodeNumber = (body, i) => body.numbers?.[i] ?? i + 1;
 
 /** What can be labelled: nothing, all sets, the nodes, or the nodes of one set. */
-export function labelChoice(body, changed) {
+export function labelChoice(body, value, changed) {
   const sets = (body.sets ?? []).map((s, k) => [`set ${k}`, `nodes of ${s.name}`]).filter((_, k) => body.sets[k].points);
   return choice('Labels', [['none', 'none'], ...(body.sets?.length ? [['sets', 'sets']] : []),
-    ['nodes', 'nodes'], ...sets], 'none', changed);
+    ['nodes', 'nodes'], ...sets], value, changed);
 }
 
 /** [point, text] of the labels wanted. */

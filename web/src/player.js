@@ -1,7 +1,7 @@
 // Play button, slider and read-out of the frames, and small buttons, for both pictures.
 import { el } from './dom.js';
 import { num } from './format.js';
-import { css } from './theme.js';
+import { css, onEnd } from './theme.js';
 
 export function button(text, title, onclick) {
   return el('button', { type: 'button', class: 'small', title, onclick }, text);
@@ -55,9 +55,10 @@ export function player(frames, current, show) {
     timer = setInterval(() => show((current() + 1) % frames.length), pause);
   }
   const several = frames.length > 1;
+  onEnd(stop);
   return {
     bar: el('div', { class: 'player' }, several && play, several && slider, text),
-    stop, toggle: several ? toggle : stop,
+    stop, toggle: several ? toggle : stop, playing: () => timer !== 0,
     update() {
       const f = frames[current()];
       slider.value = current();
@@ -79,6 +80,28 @@ export function frameKeys(canvas, frames, current, show) {
     else return;
     e.preventDefault();
   });
+}
+
+/** How bodies are looked at, for a picture of the same bodies with other frames; the last frame stays the last. */
+export function lookOf({ state, body, view }, [place, direction]) {
+  const { frame, cut, ...kept } = state; // a cut is made anew
+  if (body.pairs && !body.pairs().length) { // nothing touched: what is drawn of contact was not chosen
+    delete kept.contact;
+    delete kept.points;
+  }
+  const { step, increment, time } = body.frames[frame];
+  const keys = [...direction, ...(view.moved ? place : [])];
+  return {
+    state: kept, where: frame === body.frames.length - 1 ? null : { step, increment, time },
+    camera: Object.fromEntries(keys.map((key) => [key, view[key]])),
+  };
+}
+
+/** Puts a camera of `lookOf` in place; `fit` shows everything unless the user had moved it. */
+export function placeCamera(view, camera, fit) {
+  Object.assign(view, camera);
+  if (camera?.k) view.moved = true;
+  else fit();
 }
 
 /** The scale at which the largest displacement is a tenth of the model; never below 1. */

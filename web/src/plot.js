@@ -2,7 +2,7 @@
 import uPlot from 'uplot';
 import { el, watchWidth } from './dom.js';
 import { num, tickLabels } from './format.js';
-import { css, curveColour, onTheme } from './theme.js';
+import { css, curveColour, onEnd, onTheme } from './theme.js';
 import { drawCurve } from './curve.js';
 
 /**
@@ -29,6 +29,7 @@ export function plot(host, options, curves) {
     fillLegend(self);
     rebuild(self);
   });
+  onEnd(() => self.chart?.destroy());
   return {
     frame,
     show(next) {

@@ -6,7 +6,7 @@ import { choice, el, tick, watchWidth } from './dom.js';
 import { num } from './format.js';
 import { labelChoice } from './labels.js';
 import { topology } from './mesh.js';
-import { autoScale, button, frameKeys, onceAFrame, player, savePicture } from './player.js';
+import { autoScale, button, frameKeys, lookOf, onceAFrame, placeCamera, player, savePicture } from './player.js';
 import {
   createSpaceView, drawSpace, fitSpace, look, probeSpace, resizeSpace, shift, towardsEye, turn, zoomSpace,
 } from './space_view.js';
@@ -88,14 +88,14 @@ function readFrame(f, n, coloured) {
 }
 
 /** The section, and `show(frame)`; `frameChanged(frame)` lets the plots follow. */
-export function spaceSection(body, frameChanged, { id = 'body', title = 'Deformed bodies', preset = {} } = {}) {
+export function spaceSection(body, frameChanged, { id = 'body', title = 'Deformed bodies', preset = {}, camera = null } = {}) {
   const canvas = el('canvas', { tabIndex: 0, class: 'body', 'aria-label': 'deformed bodies' });
   const view = createSpaceView(canvas, body);
   const hint = el('div', { class: 'tip', hidden: true });
   const host = el('div', { class: 'canvas-host' }, canvas, hint);
   const preferred = body.fieldNames.find((name) => /mises/i.test(name)) ?? body.fieldNames[0];
   const state = {
-    frame: largestFrame(body.largestContact), looks: [], labels: 'none', cut: null, field: preferred, scale: 1, range: 'all', map: 'sequential',
+    frame: largestFrame(body.largestContact), looks: [], labels: 'none', cut: null, field: preferred, scaled: 1, scale: 1, range: 'all', map: 'sequential',
     bands: false, lines: true, rigid: true, ghost: false, ...preset,
   };
   const self = { body, view, state, canvas, hint, redraw: onceAFrame(() => drawSpace(view, state)) };
@@ -112,14 +112,18 @@ export function spaceSection(body, frameChanged, { id = 'body', title = 'Deforme
     self.player.bar);
   watchWidth(host, (width) => {
     resizeSpace(view, width, Math.round(Math.max(320, Math.min(width * 0.6, 620))));
-    fitSpace(view, state);
+    placeCamera(view, camera, () => fitSpace(view, state));
+    camera = null;
     self.redraw();
   });
   pointer(self);
   frameKeys(canvas, self.player, shown, show);
   onTheme(self.redraw);
   show(state.frame);
-  return { section, show };
+  return {
+    section, show, playing: self.player.playing,
+    look: () => lookOf(self, [['centre', 'px', 'py', 'k'], ['azimuth', 'elevation']]),
+  };
 }
 
 function controls(self) {
@@ -129,9 +133,10 @@ function controls(self) {
     self.redraw();
   };
   const auto = autoScale(body);
-  const warning = el('span', { class: 'warning', hidden: true }, 'scaled: gaps between bodies are not true');
+  if (state.scaled === 'auto') state.scale = auto;
+  const warning = el('span', { class: 'warning', hidden: state.scale === 1 }, 'scaled: gaps between bodies are not true');
   const rescale = (v) => {
-    change({ scale: v === 'auto' ? auto : Number(v) });
+    change({ scaled: v, scale: v === 'auto' ? auto : Number(v) });
     warning.hidden = state.scale === 1;
     fitSpace(view, state);
   };
@@ -147,12 +152,12 @@ function controls(self) {
     choice('Range', [['all', 'all frames'], ['frame', 'this frame']], state.range, (range) => change({ range })),
     choice('Colours', [['sequential', 'sequential'], ['diverging', 'diverging about 0']], state.map,
       (map) => change({ map })),
-    choice('Displacements \u00d7', scales, 1, rescale),
+    choice('Displacements \u00d7', scales, state.scaled, rescale),
     tick('mesh', state.lines, (lines) => change({ lines })),
     tick('bands', state.bands, (bands) => change({ bands })),
     tick('undeformed', state.ghost, (ghost) => change({ ghost })),
     cutControl(self, change),
-    labelChoice(body, (labels) => change({ labels })),
+    labelChoice(body, state.labels, (labels) => change({ labels })),
     bodyChoices(body.bodies, state, () => change({})),
     body.bodies.length < 2 && body.rigidTopo.tris.length > 0 && tick('rigid bodies', state.rigid, (rigid) => change({ rigid })),
     warning,

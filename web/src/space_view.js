@@ -46,6 +46,7 @@ export const towardsEye = (view) => axes(view)[2];
 
 /** Turns the picture by a drag of so many pixels. */
 export function turn(view, dx, dy) {
+  view.moved = true;
   view.azimuth -= (0.008 * dx) / view.dpr;
   view.elevation = Math.max(-Math.PI / 2, Math.min(Math.PI / 2, view.elevation + (0.008 * dy) / view.dpr));
 }
@@ -55,11 +56,13 @@ export function look(view, azimuth, elevation) {
 }
 
 export function shift(view, dx, dy) {
+  view.moved = true;
   view.px += dx;
   view.py += dy;
 }
 
 export function zoomSpace(view, factor, px = view.W / 2, py = view.H / 2) {
+  view.moved = true;
   view.px = px - view.W / 2 - factor * (px - view.W / 2 - view.px);
   view.py = py - view.H / 2 - factor * (py - view.H / 2 - view.py);
   view.k *= factor;
@@ -67,6 +70,7 @@ export function zoomSpace(view, factor, px = view.W / 2, py = view.H / 2) {
 
 /** Shows all that is no endless surface, wherever it is in (up to 41 of) all frames, with room for the colour bar. */
 export function fitSpace(view, state) {
+  view.moved = false;
   const rows = axes(view);
   const low = [Infinity, Infinity, Infinity];
   const high = [-Infinity, -Infinity, -Infinity];

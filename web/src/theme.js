@@ -1,6 +1,7 @@
 // Colours of the page as the canvases need them; they follow the light or dark scheme.
 
 const listeners = new Set();
+const ends = new Set();
 
 /** Value of a custom property of the style sheet. */
 export function css(name) {
@@ -15,6 +16,20 @@ export function curveColour(i) {
 /** `redraw` is called when the scheme changes, and before and after printing (always light). */
 export function onTheme(redraw) {
   listeners.add(redraw);
+}
+
+/** `end` is called when what is built now is taken off the page. */
+export function onEnd(end) {
+  ends.add(end);
+}
+
+/** Everything that is built from now on belongs together: the function that is returned ends it. */
+export function scope() {
+  const before = [new Set(listeners), new Set(ends)];
+  return () => {
+    for (const end of ends) if (!before[1].has(end)) end();
+    [listeners, ends].forEach((set, k) => set.forEach((f) => before[k].has(f) || set.delete(f)));
+  };
 }
 
 function announce() {

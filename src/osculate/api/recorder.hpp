@@ -21,6 +21,7 @@
 #include "osculate/result/checkpoint.hpp"
 #include "osculate/result/field_files.hpp"
 #include "osculate/result/increment_text.hpp"
+#include "osculate/result/iteration_file.hpp"
 #include "osculate/result/penetration.hpp"
 #include "osculate/result/report_data.hpp"
 #include "osculate/result/result_folder.hpp"
@@ -57,6 +58,7 @@ struct Recorder {
   result::FieldFiles<Dim> fields;
   result::ReportCollector<Dim> report;
   io::AppendFile log;
+  result::IterationFile iteration_file;
   std::optional<result::CheckpointWriter<Dim>> checkpoints;
   result::JournalEntry entry{};  ///< of the increment that has just converged
   std::string write_error;       ///< why the run had to stop, if a file could not be written
@@ -86,6 +88,7 @@ struct Recorder {
         fields(folder, b, d.output),
         report(b, d),
         log(folder + "/log.txt", o.restart ? size_of(folder + "/log.txt") : 0),
+        iteration_file(folder, o.restart),
         budget(std::move(limits)) {
     if (o.restart) return;
     history.emplace(folder + "/history.csv", column_names(b.history));
@@ -122,6 +125,7 @@ struct Recorder {
     const std::vector<char>& touched = from.entries.back().touched;
     fields.resume(std::move(files), {touched.begin(), touched.end()});
     open_answers(from.entries.back().answers);
+    begin_report();
     if (description.output.checkpoint > 0) checkpoints.emplace(folder, from);
   }
 
@@ -134,6 +138,20 @@ struct Recorder {
     values.insert(values.begin(),
                   {static_cast<double>(p.step + 1), static_cast<double>(p.increment), p.time});
     report.add_history(values);
+  }
+
+  /// What there is of the report before the first increment, for who watches the run.
+  void begin_report() {
+    if (description.output.report) result::write_text(folder + "/report.json", report.first_json());
+  }
+
+  /// An iteration that has just been done.
+  void iterated(const model::Progress& aim, int number, const solve::IterationRecord& iteration) {
+    try {
+      iteration_file.add(aim, number, iteration);
+    } catch (const io::WriteError& error) {
+      if (write_error.empty()) write_error = error.what();
+    }
   }
 
   /// A line of log.txt; one that cannot be written ends the run after this increment.

@@ -93,6 +93,9 @@ model::BasicAnalysisObserver<Dim> observe(Recorder<Dim>& recorder) {
     recorder.say(fmt::format("{}: no convergence from {:.5g} to {:.5g} of the step: {}; halving",
                              recorder.step_name(p), p.fraction, to, reason));
   };
+  observer.iterated = [&recorder](const auto& aim, int number, const auto& iteration) {
+    recorder.iterated(aim, number, iteration);
+  };
   observer.vibrates = [&recorder](const auto&, const auto& state, const auto& p,
                                   const auto& modes) {
     recorder.say_all(result::vibrations_text(recorder.step_name(p), modes));
@@ -122,6 +125,7 @@ void introduce(Recorder<Dim>& recorder, const result::RunIdentity& id) {
     recorder.say(fmt::format("{:<13} {:<16} {}", fact.heading, fact.name, fact.text));
   for (const std::string& warning : recorder.built.warnings) recorder.say("warning: " + warning);
   if (recorder.description.output.checkpoint > 0) recorder.checkpoints.emplace(recorder.folder, id);
+  recorder.begin_report();
 }
 
 template <int Dim>

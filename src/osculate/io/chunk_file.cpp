@@ -80,6 +80,31 @@ std::string packed(const Chunk& chunk) {
          word_bytes(checksum_of(chunk)) + chunk.name + chunk.bytes;
 }
 
+std::optional<Chunk> next_chunk(const std::string& path, std::string_view kind, int version,
+                                std::uint64_t& at) {
+  const std::uint64_t head = chunk_file_head(kind, version).size();
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  const auto size = static_cast<std::uint64_t>(std::max<std::streamoff>(file.tellg(), 0));
+  const std::uint64_t from = std::max(at, head);
+  if (!file || size < from || size - from < 3 * word) return std::nullopt;
+  if (at == 0) require_head(path, first_bytes(path, head), kind, version);
+  const auto bytes_at = [&](std::uint64_t place, std::uint64_t count) {
+    std::string bytes(static_cast<std::size_t>(count), '\0');
+    file.seekg(static_cast<std::streamoff>(place));
+    file.read(bytes.data(), static_cast<std::streamsize>(count));
+    return bytes;
+  };
+  const std::string sizes = bytes_at(from, 3 * word);
+  const std::uint64_t name = word_at(sizes), bytes = word_at(std::string_view(sizes).substr(word)),
+                      begin = from + 3 * word;
+  if (name > size - begin || bytes > size - begin - name) return std::nullopt;
+  Chunk chunk{bytes_at(begin, name), bytes_at(begin + name, bytes)};
+  if (!file || checksum_of(chunk) != word_at(std::string_view(sizes).substr(2 * word)))
+    return std::nullopt;
+  at = begin + name + bytes;
+  return chunk;
+}
+
 std::vector<Chunk> read_chunks(const std::string& path, std::string_view kind, int version,
                                std::uint64_t limit) {
   const std::string text = first_bytes(path, limit);

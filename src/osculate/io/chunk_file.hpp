@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,5 +30,13 @@ struct Chunk {
 /// Tested by  tests/unit/io/test_chunk_file.cpp
 [[nodiscard]] std::vector<Chunk> read_chunks(const std::string& path, std::string_view kind,
                                              int version, std::uint64_t limit = UINT64_MAX);
+
+/// The chunk that begins at byte `at` (0: the first one) of a file that may still grow; moves `at`
+/// behind it. None: there is no whole one yet.
+///
+/// Errors     core::InputError: the file is of another kind or version or byte order
+/// Tested by  tests/unit/io/test_chunk_file.cpp
+[[nodiscard]] std::optional<Chunk> next_chunk(const std::string& path, std::string_view kind,
+                                              int version, std::uint64_t& at);
 
 }  // namespace osculate::io

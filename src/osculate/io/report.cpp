@@ -120,6 +120,17 @@ std::string fill(std::string_view page, std::span<const Place> places) {
   return out;
 }
 
+/// `asks`: whom the page may ask for data, as its policy says it.
+std::string page(const std::string& data_json, const std::string& title_text,
+                 std::string_view asks) {
+  std::string title = escape_markup(title_text);
+  if (title.empty()) title = "Osculate";
+  const std::string data = escape_data(data_json);
+  const std::array<Place, 4> places{
+      {{"@TITLE@", title}, {"@DATA@", data}, {"@BUNDLE@", report_bundle()}, {"@CONNECT@", asks}}};
+  return fill(report_template(), places);
+}
+
 }  // namespace
 
 std::string report_html(const std::string& data_json) {
@@ -127,12 +138,11 @@ std::string report_html(const std::string& data_json) {
 }
 
 std::string report_html(const std::string& data_json, const std::string& title_text) {
-  std::string title = escape_markup(title_text);
-  if (title.empty()) title = "Osculate";
-  const std::string data = escape_data(data_json);
-  const std::array<Place, 3> places{
-      {{"@TITLE@", title}, {"@DATA@", data}, {"@BUNDLE@", report_bundle()}}};
-  return fill(report_template(), places);
+  return page(data_json, title_text, "'none'");
+}
+
+std::string live_html(const std::string& title) {
+  return page(R"({"live":true})", title, "'self'");
 }
 
 std::string base64_f32(std::span<const float> values) {

@@ -16,6 +16,10 @@ namespace osculate::io {
 /// The same of data that is known to be such an object, with this title.
 [[nodiscard]] std::string report_html(const std::string& data_json, const std::string& title);
 
+/// The same viewer without data, for a server that it asks for them again and again (`osculate
+/// view`, docs/view.md).
+[[nodiscard]] std::string live_html(const std::string& title);
+
 /// Base64 (RFC 4648, with padding) of the values as little-endian IEEE single precision: the
 /// compact form of the arrays in the report data, `{"f32": "...", "shape": [...]}`.
 ///

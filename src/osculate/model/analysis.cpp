@@ -281,6 +281,13 @@ struct Analysis {
     result.linear.given_up += work.given_up;
   }
 
+  std::function<void(const solve::IterationDone&)> told_of_iterations(const Step& step) {
+    return [this, length = length_of(step)](const solve::IterationDone& done) {
+      const Progress aim{progress.step, progress.increment + 1, done.to, begun + done.to * length};
+      observer.iterated(aim, done.number, done.record);
+    };
+  }
+
   void run_step(const Step& step) {
     const bool iterates = !step.frequencies && !step.buckling && !step.harmonic && !step.modal;
     introduce(iterates);
@@ -305,6 +312,7 @@ struct Analysis {
       return;
     }
     solve::IncrementOptions increments = options.increments;
+    if (observer.iterated) increments.newton.iterated = told_of_iterations(step);
     if (step.dynamics) increments.arc_length.use = solve::PathControl::off;  // time does not turn
     if (step.dynamics && step.dynamics->time_steps)
       increments.time_steps =

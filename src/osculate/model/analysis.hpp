@@ -96,6 +96,9 @@ struct BasicAnalysisObserver {
       harmonic{};
   /// Where the analysis goes on from a resume point: it stands there, nothing has been solved yet.
   std::function<void(const BasicSystem<Dim>&, const BasicState<Dim>&)> resumed{};
+  /// After each iteration, also of attempts that are dropped: where its increment is to end, its
+  /// number in the attempt, and what it found.
+  std::function<void(const Progress& aim, int number, const solve::IterationRecord&)> iterated{};
   /// Asked between two iterations: true ends the analysis with what has converged.
   std::function<bool()> interrupted;
 };

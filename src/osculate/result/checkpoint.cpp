@@ -411,6 +411,16 @@ Checkpoint<Dim> read_one(const std::string& path, const std::string& folder, con
 
 }  // namespace
 
+std::optional<JournalEntry> next_journal_entry(const std::string& folder, std::uint64_t& at) {
+  const std::string path = journal_path(folder);
+  std::optional<io::Chunk> chunk = io::next_chunk(path, "journal", version, at);
+  if (chunk && chunk->name == "model") chunk = io::next_chunk(path, "journal", version, at);
+  if (!chunk) return std::nullopt;
+  JournalEntry entry;
+  load(*chunk, entry);
+  return entry;
+}
+
 template <int Dim>
 Checkpoint<Dim> read_checkpoint(const std::string& folder, const RunIdentity& now,
                                 const model::BasicModel<Dim>& model, const std::string& model_file,

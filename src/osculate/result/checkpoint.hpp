@@ -114,6 +114,14 @@ class CheckpointWriter {
   std::chrono::steady_clock::time_point synced_{};
 };
 
+/// The entry of a folder's journal that begins at byte `at` (0: the first one), of a run that may
+/// still go on; moves `at` behind it. None: there is no whole one yet.
+///
+/// Errors     core::InputError: the journal is of another version
+/// Tested by  tests/system/test_view.py
+[[nodiscard]] std::optional<JournalEntry> next_journal_entry(const std::string& folder,
+                                                             std::uint64_t& at);
+
 enum class WhichCheckpoint { best, last, previous };
 
 /// Reads a checkpoint of a folder; `best`: the last, or if that is damaged the previous one.

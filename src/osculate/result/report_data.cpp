@@ -8,6 +8,14 @@
 
 namespace osculate::result {
 
+namespace {
+
+std::string report_status(const nlohmann::json& status) {
+  return status == "done" || status == "running" ? status.get<std::string>() : "failed";
+}
+
+}  // namespace
+
 template <int Dim>
 struct ReportCollector<Dim>::Collected {
   std::vector<nlohmann::json> frames{};
@@ -106,7 +114,7 @@ std::string ReportCollector<Dim>::json(const nlohmann::json& summary) const {
   if (!c.last.is_null()) frames.push_back(c.last);
   nlohmann::json data = {{"title", built_.model.title},
                          {"osculate", core::version},
-                         {"status", summary["status"] == "done" ? "done" : "failed"},
+                         {"status", report_status(summary["status"])},
                          {"message", summary["message"]},
                          {"model", facts},
                          {"summary", summary},
@@ -118,6 +126,14 @@ std::string ReportCollector<Dim>::json(const nlohmann::json& summary) const {
   if (!c.failure.is_null()) data["last_iterate"] = c.failure;
   if (!plots.empty()) data["plots"] = plots;
   return json_text(data);
+}
+
+template <int Dim>
+std::string ReportCollector<Dim>::first_json() const {
+  nlohmann::json steps = nlohmann::json::array();
+  for (const model::Step& step : built_.model.steps)
+    steps.push_back({{"name", step.name}, {"increments", nlohmann::json::array()}});
+  return json({{"status", "running"}, {"message", ""}, {"steps", steps}});
 }
 
 template class ReportCollector<2>;

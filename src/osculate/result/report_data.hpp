@@ -30,6 +30,9 @@ class ReportCollector {
   /// The report data with the summary merged in.
   [[nodiscard]] std::string json(const nlohmann::json& summary) const;
 
+  /// The report data before the first increment: all steps without any, the mesh without frames.
+  [[nodiscard]] std::string first_json() const;
+
  private:
   const deck::BasicBuilt<Dim>& built_;
   const deck::Description& description_;

@@ -104,10 +104,10 @@ bool is_plain_name(const std::string& name) {
 
 /// The files whose names all runs give.
 bool is_common_file(std::string_view name) {
-  constexpr std::array names{
-      "history.csv", "report.json",    "report.html",     "log.txt",
-      "journal.bin", "checkpoint.bin", "results.pvd",     "checkpoint.previous.bin",
-      list_name,     "writable.part",  "last_iterate.vtu"};
+  constexpr std::array names{"history.csv",    "report.json",   "report.html",
+                             "log.txt",        "journal.bin",   "checkpoint.bin",
+                             "iterations.csv", "results.pvd",   "checkpoint.previous.bin",
+                             list_name,        "writable.part", "last_iterate.vtu"};
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
@@ -212,7 +212,30 @@ bool is_at(int file, const std::string& path) {
          by_file.st_ino == by_name.st_ino && by_file.st_dev == by_name.st_dev;
 }
 
+/// Whether the file could be locked; who only looks who has it (owner_of_lock) has it for no time.
+bool lock_soon(int file) {
+  constexpr int tries = 5;
+  constexpr timespec pause{0, 10'000'000};
+  for (int i = 1;; ++i) {
+    if (::flock(file, LOCK_EX | LOCK_NB) == 0) return true;
+    if (errno != EWOULDBLOCK || i == tries) return false;
+    ::nanosleep(&pause, nullptr);
+  }
+}
+
 }  // namespace
+
+std::string owner_of_lock(const std::string& folder) {
+  const std::string path = folder + "/" + lock_name;
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return {};
+  const bool taken = ::flock(file, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  std::array<char, 512> text{};
+  const ssize_t size = taken ? ::read(file, text.data(), text.size()) : 0;
+  ::close(file);
+  if (!taken) return {};
+  return size > 0 ? std::string(text.data(), static_cast<std::size_t>(size)) : "?";
+}
 
 FolderLock::FolderLock(const std::string& folder, bool create_it)
     : path_(folder + "/" + lock_name) {
@@ -220,7 +243,7 @@ FolderLock::FolderLock(const std::string& folder, bool create_it)
   for (;;) {
     file_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
     if (file_ < 0) return;  // no folder, or none to write to: others say so
-    if (::flock(file_, LOCK_EX | LOCK_NB) != 0) {
+    if (!lock_soon(file_)) {
       const bool taken = errno == EWOULDBLOCK;
       ::close(file_);
       file_ = -1;

@@ -36,6 +36,9 @@ class FolderLock {
   int file_ = -1;
 };
 
+/// Who writes to a folder now, as its FolderLock says; empty: nobody. Does not wait.
+[[nodiscard]] std::string owner_of_lock(const std::string& folder);
+
 /// `model`, `model_path` and `model_content` of summary.json, as the file is now: to be taken once,
 /// before the file is read.
 [[nodiscard]] nlohmann::json owner_json(const std::string& model);

@@ -24,6 +24,8 @@ nlohmann::json number(double value) {
   return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr);
 }
 
+}  // namespace
+
 nlohmann::json increment_json(double step_time, const solve::IncrementRecord& record) {
   nlohmann::json residuals = nlohmann::json::array(), energies = nlohmann::json::array();
   for (const solve::IterationRecord& it : record.iterations) {
@@ -69,6 +71,8 @@ nlohmann::json increment_json(double step_time, const solve::IncrementRecord& re
           {"residuals", residuals},
           {"energies", energies}};
 }
+
+namespace {
 
 /// Of a step whose time steps were chosen by their errors; null for others.
 nlohmann::json chosen_json(const ChosenTimeSteps& chosen) {

@@ -23,6 +23,10 @@ template <int Dim>
                                           const std::vector<double>& curvature_shares,
                                           const std::vector<nlohmann::json>& notes);
 
+/// A converged increment as summary.json has it, but for what `notes` add and its curvature share.
+/// `step_time`: how many steps are behind it.
+[[nodiscard]] nlohmann::json increment_json(double step_time, const solve::IncrementRecord& record);
+
 /// `diagnosis` of summary.json: why the analysis stopped before its end; null if it did not fail.
 template <int Dim>
 [[nodiscard]] nlohmann::json diagnosis_json(const model::BasicModel<Dim>& model,

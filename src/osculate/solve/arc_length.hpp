@@ -152,6 +152,7 @@ bool begin_arc(S& system, const typename S::State& committed, double start, doub
   result.first_residual = std::abs(share) * load.norm();
   result.first_energy = judge.first_energy;
   result.total = du;
+  judge.aim = point.fraction;
   result.trial = system.apply(result.trial, du, point.fraction, 1.0);
   system.evaluate(committed, result.trial, point.fraction, true, result.evaluation);
   return !conclude(judge, du, 1.0, judge.first_energy, result);
@@ -175,7 +176,7 @@ bool correct_arc(S& system, const typename S::State& committed, la::LinearSolver
   if (!step || !std::isfinite(*step))
     return fail(result, Outcome::not_converged, "the path does not reach as far as the arc");
   du += *step * *load;
-  point.fraction += *step;
+  judge.aim = point.fraction += *step;
   result.trial = system.apply(result.trial, du, point.fraction, 1.0);
   result.total += du;
   system.evaluate(committed, result.trial, point.fraction, true, result.evaluation);

@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <concepts>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,22 @@ struct Evaluation {
   bool saddle = false;  ///< some unknowns are multipliers: the residual has no potential
 };
 
+struct IterationRecord {
+  double residual = 0;   ///< |R| / scale after the correction
+  double energy = 0;     ///< relative to the first iteration
+  double step = 1;       ///< line search factor
+  bool factored = true;  ///< else the factors of a former iteration served
+  bool whole = true;     ///< else no more was factored than the unknowns of contact
+  StateCounts counts;
+};
+
+/// An iteration that has just been done, for who watches.
+struct IterationDone {
+  double to;   ///< fraction of the step that the increment aims at (on a path: of the iterate)
+  int number;  ///< 1-based, since the attempt or the last correction of multipliers began
+  const IterationRecord& record;
+};
+
 enum class LineSearch { automatic, off };
 
 /// Where an increment starts from. tangent: from the committed state, linearised there.
@@ -74,6 +91,8 @@ struct NewtonOptions {
   int max_iterations = 25;
   LineSearch line_search = LineSearch::automatic;
   Predictor predictor = Predictor::automatic;
+  /// Told of each iteration when it is done; may be empty.
+  std::function<void(const IterationDone&)> iterated{};
 };
 
 /// A first guess of an increment, and what its convergence is measured by: an extrapolated start
@@ -84,15 +103,6 @@ struct Guess {
   double energy = 0;    ///< first energy of that increment
   Prediction friction = Prediction::as_before;  ///< without du
   bool resisted = false;  ///< without du: resist free motions (see Resistance)
-};
-
-struct IterationRecord {
-  double residual = 0;   ///< |R| / scale after the correction
-  double energy = 0;     ///< relative to the first iteration
-  double step = 1;       ///< line search factor
-  bool factored = true;  ///< else the factors of a former iteration served
-  bool whole = true;     ///< else no more was factored than the unknowns of contact
-  StateCounts counts;
 };
 
 /// Of all unknowns, and of those of contact alone.

@@ -19,6 +19,7 @@ inline double relative(double value, double scale) {
 /// Judges one iteration; see NewtonOptions.
 struct Judge {
   const NewtonOptions& options;
+  double aim = 0;  ///< fraction of the step, for who watches
   double first_energy = 0;
   double largest_correction = 0;
   double least_residual = std::numeric_limits<double>::infinity();
@@ -219,6 +220,8 @@ bool conclude(Judge& judge, const Eigen::VectorXd& du, double step, double energ
   record.energy = relative(by_residual ? energy_after : energy_before, judge.first_energy);
   record.counts = e.counts;
   result.iterations.push_back(record);
+  if (judge.options.iterated)
+    judge.options.iterated({judge.aim, static_cast<int>(result.iterations.size()), record});
   if (!std::isfinite(record.residual))
     return !fail(result, Outcome::numerical_failure, "the residual is not a number");
   const double correction = du.lpNorm<Eigen::Infinity>();
@@ -337,7 +340,7 @@ template <System S>
                                                      const Guess& guess = {},
                                                      const typename S::Trial* warm = nullptr) {
   NewtonResult<typename S::Trial> result;
-  detail::Judge judge{options};
+  detail::Judge judge{options, time};
   detail::begin(system, committed, time, guess, warm, judge, result);
   if (!result.evaluation.ok) {
     detail::fail(result, Outcome::numerical_failure, result.evaluation.message);

@@ -93,6 +93,42 @@ TEST_F(ChunkFile, WhatComesBehindTheLimitDoesNotMatter) {
   EXPECT_EQ(read_chunks(path_, "test", 3, good_.size()).size(), 3u);
 }
 
+TEST_F(ChunkFile, OfAFileThatGrowsWholeChunksAreReadOneByOne) {
+  std::uint64_t at = 0;
+  EXPECT_FALSE(next_chunk(path_, "test", 3, at));  // not yet there
+  const std::size_t first = good_.find("first") + 5;
+  for (std::size_t size = 0; size < first; ++size) {
+    write(good_.substr(0, size));
+    EXPECT_FALSE(next_chunk(path_, "test", 3, at)) << size;
+    EXPECT_EQ(at, 0u);
+  }
+  write(good_.substr(0, good_.size() - 1));
+  std::vector<std::string> names;
+  while (const std::optional<Chunk> chunk = next_chunk(path_, "test", 3, at))
+    names.push_back(chunk->name + "=" + chunk->bytes);
+  EXPECT_EQ(names, (std::vector<std::string>{"a=first", "empty="}));
+  write(good_);
+  const std::optional<Chunk> last = next_chunk(path_, "test", 3, at);
+  ASSERT_TRUE(last);
+  EXPECT_EQ(last->bytes, std::string(300, 'x'));
+  EXPECT_EQ(at, good_.size());
+  EXPECT_FALSE(next_chunk(path_, "test", 3, at));
+}
+
+TEST_F(ChunkFile, OfAFileThatGrowsNothingDamagedIsTaken) {
+  for (std::size_t i = chunk_file_head("test", 3).size(); i < good_.find("first") + 5; ++i) {
+    std::string damaged = good_;
+    damaged[i] = static_cast<char>(damaged[i] ^ 0x40);
+    write(damaged);
+    std::uint64_t at = 0;
+    EXPECT_FALSE(next_chunk(path_, "test", 3, at)) << i;
+  }
+  write(good_);
+  std::uint64_t at = 0;
+  EXPECT_THROW((void)next_chunk(path_, "test", 4, at), core::InputError);
+  EXPECT_THROW((void)next_chunk(path_, "other", 3, at), core::InputError);
+}
+
 TEST_F(ChunkFile, AnAppendFileKeepsAsMuchAsItIsTold) {
   {
     AppendFile file(path_);

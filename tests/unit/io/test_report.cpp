@@ -99,6 +99,15 @@ TEST(ReportHtml, MarksInTheDataStay) {
   EXPECT_EQ(occurrences(html, std::string(report_bundle())), 1u);
 }
 
+TEST(ReportHtml, OfARunThatGoesOnAsksItsOwnServerAlone) {
+  const std::string html = live_html("a <b>");
+  EXPECT_TRUE(contains(html, "<title>a &lt;b&gt;</title>"));
+  EXPECT_TRUE(contains(html, "default-src 'none'"));
+  EXPECT_TRUE(contains(html, "connect-src 'self'"));
+  EXPECT_EQ(embedded_data(html), R"({"live":true})");
+  EXPECT_TRUE(contains(report_html("{}"), "connect-src 'none'"));
+}
+
 TEST(ReportHtml, AsksForNothingFromTheNetwork) {
   const std::string html = report_html("{}");
   EXPECT_TRUE(contains(html, "default-src 'none'"));

@@ -76,6 +76,33 @@ TEST(ArcLength, FollowsTheWholePath) {
   EXPECT_FALSE(path.result.increments.front().on_path);
 }
 
+TEST(ArcLength, TellsOfEachIterationWhereItStands) {
+  ToySystem system = snapping();
+  IncrementOptions options;
+  options.arc_length.use = PathControl::always;
+  std::vector<IterationDone> told;
+  std::vector<double> residuals;
+  options.newton.iterated = [&](const IterationDone& done) {
+    told.push_back(done);
+    residuals.push_back(done.record.residual);
+  };
+  la::Mumps solver;
+  StepPosition position;
+  const auto result = run_step(
+      system, ToySystem::State{Eigen::VectorXd::Zero(1)}, 10, options, solver,
+      IncrementObserver<ToySystem::State>([&](const ToySystem::State&, const IncrementRecord& r) {
+        EXPECT_NEAR(told.back().to, r.fraction, 1e-12);
+        EXPECT_EQ(residuals.back(), r.iterations.back().residual);
+        return true;
+      }),
+      [](const std::string&, double, double, const std::vector<IterationRecord>&) {}, position);
+  ASSERT_EQ(result.outcome, Outcome::converged);
+  std::size_t iterations = 0;
+  for (const IncrementRecord& record : result.increments)
+    iterations += record.iterations.size() + static_cast<std::size_t>(record.wasted_iterations);
+  EXPECT_EQ(told.size(), iterations);
+}
+
 TEST(ArcLength, IsNotUsedWhereItIsOff) {
   const Path path = run(snapping(), PathControl::off);
   // Load control may jump over to the other branch, or stop: it never walks down.

@@ -36,6 +36,28 @@ TEST(Newton, ConvergesQuadratically) {
   EXPECT_NEAR(error[n - 1] / (error[n - 2] * error[n - 2]), 6.0 / 13.0, 1e-2);
 }
 
+TEST(Newton, TellsOfEachIterationWhenItIsDone) {
+  ToySystem system = cubic();
+  NewtonOptions options;
+  std::vector<IterationRecord> told;
+  std::vector<std::size_t> evaluated;
+  options.iterated = [&](const IterationDone& done) {
+    EXPECT_EQ(done.number, std::ssize(told) + 1);
+    EXPECT_EQ(done.to, 0.75);
+    told.push_back(done.record);
+    evaluated.push_back(system.evaluated.size());
+  };
+  const auto result = solve_from(system, 1.0, options, 0.75);
+  ASSERT_EQ(result.outcome, Outcome::converged);
+  ASSERT_EQ(told.size(), result.iterations.size());
+  ASSERT_GE(told.size(), 3u);
+  for (std::size_t i = 0; i < told.size(); ++i) {
+    EXPECT_EQ(told[i].residual, result.iterations[i].residual);
+    EXPECT_EQ(told[i].energy, result.iterations[i].energy);
+    if (i > 0) EXPECT_GT(evaluated[i], evaluated[i - 1]);  // not all at the end
+  }
+}
+
 /// The stop of every measure, against a Newton loop written out here.
 struct Counts {
   int residual = 0, energy_before = 0, both = 0;
