@@ -99,17 +99,24 @@ void send_all(int connection, std::string_view bytes) {
   }
 }
 
-/// Up to the empty line behind the headers; empty: it did not come.
-std::string head_from(int connection) {
+/// Up to the empty line behind the headers; empty: it did not come in time, or `ending`.
+std::string head_from(int connection, const std::atomic<bool>& ending) {
+  constexpr int often = 100, patience = 50;  // milliseconds, times
   std::string head;
   std::array<char, 4096> buffer{};
-  while (head.find("\r\n\r\n") == std::string::npos) {
+  for (int waited = 0; waited < patience && !ending;) {
+    pollfd waiting{connection, POLLIN, 0};
+    if (::poll(&waiting, 1, often) <= 0) {
+      ++waited;
+      continue;
+    }
     const ssize_t n = ::recv(connection, buffer.data(), buffer.size(), 0);
-    if (n < 0 && errno == EINTR) continue;
     if (n <= 0 || head.size() + static_cast<std::size_t>(n) > longest_request) return {};
     head.append(buffer.data(), static_cast<std::size_t>(n));
+    if (const std::size_t end = head.find("\r\n\r\n"); end != std::string::npos)
+      return head.substr(0, end);
   }
-  return head.substr(0, head.find("\r\n\r\n"));
+  return {};
 }
 
 HttpAnswer refused(int status, std::string text) { return {status, "text/plain", text + "\n"}; }
@@ -157,7 +164,6 @@ void HttpServer::listen() {
       continue;
     }
     const timeval patience{2, 0};
-    ::setsockopt(connection, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
     ::setsockopt(connection, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
     ++open_;
     try {
@@ -174,7 +180,7 @@ void HttpServer::listen() {
 }
 
 void HttpServer::serve(int connection) {
-  const std::string head = head_from(connection);
+  const std::string head = head_from(connection, ending_);
   if (head.empty()) return;
   const std::string_view first = std::string_view(head).substr(0, head.find("\r\n"));
   const std::size_t method = first.find(' '), target = first.rfind(' ');

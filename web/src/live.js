@@ -102,9 +102,9 @@ export function underWay({ state, entries, base }) {
 function liveSection(follow) {
   const text = el('p', { class: 'message' });
   const log = el('pre', { class: 'log' });
-  const grid = el('div', { class: 'grid' });
-  const section = el('section', { id: 'live' }, el('h2', {}, 'Now'),
-    el('div', { class: 'controls' }, follow), text, grid, log);
+  const charts = el('div');
+  const section = el('section', { id: 'live' }, el('h2', {}, 'Now'), el('div', { class: 'controls' }, follow), text,
+    el('div', { class: 'grid' }, charts, log));
   let chart = null;
   return {
     section,
@@ -115,7 +115,7 @@ function liveSection(follow) {
         .filter(Boolean).map((line) => el('div', {}, line)));
       log.textContent = known.state.log.join('\n');
       if (!now) return;
-      chart ??= plot(grid, {
+      chart ??= plot(charts, {
         title: 'Iterations of this increment', xlabel: 'iteration', ylabel: 'measure, relative', logY: true, integerX: true,
       }, now.curves);
       chart.show(now.curves);
