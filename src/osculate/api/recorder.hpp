@@ -106,6 +106,7 @@ struct Recorder {
   void resume(const result::Checkpoint<Dim>& from, const model::BasicSystem<Dim>& system,
               const model::BasicState<Dim>& state) {
     result::claim_folder(folder, owner);
+    begin_report();
     std::vector<io::PvdEntry> files;
     std::vector<io::HistoryRow> rows;
     for (const result::JournalEntry& e : from.entries) {
@@ -125,7 +126,6 @@ struct Recorder {
     const std::vector<char>& touched = from.entries.back().touched;
     fields.resume(std::move(files), {touched.begin(), touched.end()});
     open_answers(from.entries.back().answers);
-    begin_report();
     if (description.output.checkpoint > 0) checkpoints.emplace(folder, from);
   }
 
