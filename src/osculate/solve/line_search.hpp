@@ -42,11 +42,11 @@ LinePoint<S> bracketed(const At& at, LinePoint<S> low, LinePoint<S> high, double
   return falling && std::abs(best.work) > enough ? high : best;
 }
 
-/// How much of a correction is taken, and whether the result has the evaluation there (without a
-/// tangent).
+/// How much of a correction is taken, and whether the result has the evaluation there, and the
+/// system its tangent.
 struct Searched {
   double step = 1;
-  bool evaluated = false;
+  bool evaluated = false, with_tangent = false;
 };
 
 /// Finds how much of a correction to take. Friction and contact make the residual along the
@@ -66,11 +66,13 @@ struct Searched {
 ///
 /// A tangent that has lost nearly all digits (`weak`) corrects part of the error alone: more than
 /// the full correction is taken, up to the zero of the work.
+///
+/// `ahead`: the full correction, which is taken as a rule, is evaluated with its tangent.
 template <System S>
 Searched line_search(S& system, const typename S::State& committed,
                      NewtonResult<typename S::Trial>& result, const Eigen::VectorXd& du,
                      const Eigen::VectorXd& old_residual, double time, bool falling = false,
-                     bool weak = false) {
+                     bool weak = false, bool ahead = false) {
   constexpr int most = 10;
   constexpr double close_enough = 0.05, farthest = 100;
   const typename S::Trial start = result.trial;
@@ -79,7 +81,8 @@ Searched line_search(S& system, const typename S::State& committed,
   const auto at = [&](double step) {
     LinePoint<S> point{step};
     evaluated = step;
-    system.evaluate(committed, system.apply(start, du, time, step), time, false, trial);
+    system.evaluate(committed, system.apply(start, du, time, step), time, ahead && step == 1.0,
+                    trial);
     point.ok = trial.ok && trial.residual.allFinite();
     if (!point.ok) return point;
     point.work = du.dot(trial.residual);
@@ -89,7 +92,7 @@ Searched line_search(S& system, const typename S::State& committed,
   const auto taken = [&](double step) {
     result.trial = system.apply(start, du, time, step);
     if (evaluated == step) result.evaluation = std::move(trial);
-    return Searched{step, evaluated == step};
+    return Searched{step, evaluated == step, evaluated == step && ahead && step == 1.0};
   };
   LinePoint<S> low{0, du.dot(old_residual), old_residual.norm(), true};
   LinePoint<S> high = at(1.0);

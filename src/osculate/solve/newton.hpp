@@ -283,8 +283,9 @@ bool overshot(const S& system, const Correction& by, int touching,
 
 /// Moves the trial along a correction, by a line search where the residual is smooth, and evaluates
 /// it there with its tangent. `known`: what is converged needs no tangent, and is not evaluated
-/// twice. The first correction of an increment is searched where it went too far, and only if
-/// nothing is prescribed to move: bodies would lag behind that.
+/// twice; where that is far ahead the search evaluates the full correction with it. The first
+/// correction of an increment is searched where it went too far, and only if nothing is prescribed
+/// to move: bodies would lag behind that.
 ///
 /// Decision   docs/decisions/084-first-corrections.md
 template <System S>
@@ -295,24 +296,29 @@ Searched move_along(S& system, const typename S::State& committed, const Correct
                       e.branch_residual.size() == 0 && !e.saddle;
   const bool weak = result.precision.condition > 0;
   const bool doubtful = !by.first || result.extrapolated || by.resisted || weak;
+  constexpr double far = 1e-5;  // of the scale: the next iterate may be the last one below
+  const bool ahead = !by.resisted && by.residual.norm() > far * e.force_scale;
   const bool led = e.led;
   const int touching = e.counts.touching();
   Searched searched;
   const auto look = [&] {
-    searched =
-        line_search(system, committed, result, by.du, by.residual, by.time, by.resisted, weak);
+    searched = line_search(system, committed, result, by.du, by.residual, by.time, by.resisted,
+                           weak, ahead && doubtful);
   };
   const typename S::Trial start = result.trial;
   if (search && doubtful)
     look();
   else
     result.trial = system.apply(start, by.du, by.time, 1.0);
-  known = searched.evaluated && !by.resisted && meets(judge, by.du, by.energy, result);
-  if (!known) system.evaluate(committed, result.trial, by.time, true, result.evaluation);
+  known = searched.evaluated && !searched.with_tangent && !by.resisted &&
+          meets(judge, by.du, by.energy, result);
+  if (!known && !searched.with_tangent)
+    system.evaluate(committed, result.trial, by.time, true, result.evaluation);
   if (!search || doubtful || led || !overshot(system, by, touching, result)) return searched;
   result.trial = start;
   look();
-  system.evaluate(committed, result.trial, by.time, true, result.evaluation);
+  if (!searched.with_tangent)
+    system.evaluate(committed, result.trial, by.time, true, result.evaluation);
   return searched;
 }
 
