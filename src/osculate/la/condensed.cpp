@@ -8,6 +8,7 @@
 #include <limits>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "osculate/la/accuracy.hpp"
 
@@ -73,18 +74,27 @@ Eigen::VectorXd scale_of(const SparseMatrix& k, bool symmetric) {
   return scale;
 }
 
-/// A hash of the pattern and of what may change (FNV-1a by words).
+/// A hash of what may change, C, and of the pattern outside of C x C, on which alone the operations
+/// depend (FNV-1a by words). C is sorted, and below n.
 std::uint64_t mark_of(const SparseMatrix& k, Symmetry symmetry, std::span<const Index> changing) {
+  std::vector<bool> few(static_cast<std::size_t>(k.n));
+  for (const Index i : changing) few[static_cast<std::size_t>(i)] = true;
   std::uint64_t mark = 14695981039346656037U;
-  const auto add = [&](std::span<const Index> values) {
-    for (const Index value : values)
-      mark = (mark ^ static_cast<std::uint32_t>(value)) * 1099511628211U;
+  const auto add = [&](Index value) {
+    mark = (mark ^ static_cast<std::uint32_t>(value)) * 1099511628211U;
   };
-  const Index kind = static_cast<Index>(symmetry);
-  add({&kind, 1});
-  add(k.row_start);
-  add(k.column);
-  add(changing);
+  add(static_cast<Index>(symmetry));
+  add(k.n);
+  for (const Index i : changing) add(i);
+  for (Index i = 0; i < k.n; ++i) {
+    add(-1 - i);
+    const auto row = static_cast<std::size_t>(i);
+    for (Index e = k.row_start[row]; e < k.row_start[row + 1]; ++e) {
+      const Index j = k.column[static_cast<std::size_t>(e)];
+      const bool inside = few[row] && few[static_cast<std::size_t>(j)];
+      if (!inside && (symmetry == Symmetry::unsymmetric || i <= j)) add(j);
+    }
+  }
   return mark;
 }
 
@@ -99,7 +109,8 @@ struct Condensed::Impl {
   SchurFactors inside;
   std::unique_ptr<Dense> dense = std::make_unique<Dense>();
   std::vector<Index> changing;
-  std::uint64_t too_dear = 0;  ///< the pattern for which a dense matrix was dearer last
+  std::uint64_t pattern = 0;   ///< of the last matrix that was asked about, as a hash
+  std::uint64_t too_dear = 0;  ///< the one for which a dense matrix was dearer, or had no room
   bool condensed = false;      ///< the last factors
   SparseMatrix matrix;         ///< theirs, where condensed
   std::uint64_t version = 0;
@@ -131,13 +142,16 @@ bool Condensed::Impl::pays(const SparseMatrix& k, Symmetry symmetry) {
   constexpr double fewest = 4, worth_it = 3, most = 4000;  // 4000: a dense matrix of 128 MB
   const auto c = static_cast<double>(changing.size());
   if (changing.empty() || c > most || fewest * c > k.n || changing.back() >= k.n) return false;
-  const std::uint64_t pattern = mark_of(k, symmetry, changing);
-  if (pattern == too_dear) return false;
+  pattern = mark_of(k, symmetry, changing);
+  if (pattern == too_dear) {
+    if (inside.analysed()) forget();
+    return false;
+  }
   if (!inside.analysed()) whole.forget();  // its factors serve no more, and are large
   const double dense_operations = (symmetric ? 1.0 : 2.0) / 3.0 * c * c * c;
   if (inside.analyse(k, symmetry, changing) && inside.operations() > worth_it * dense_operations)
     return true;
-  inside.forget();
+  forget();
   too_dear = pattern;
   return false;
 }
@@ -205,6 +219,7 @@ bool Condensed::Impl::condense_where_it_fits(const SparseMatrix& k, FactorReport
     return condense(k, report);
   } catch (const std::bad_alloc&) {
     forget();
+    too_dear = pattern;
     return false;
   }
 }
@@ -223,6 +238,7 @@ FactorReport Condensed::Impl::factor_whole(const SparseMatrix& k) {
     if (!inside.holds_factors()) throw;
   }
   forget();
+  too_dear = pattern;
   return whole.factor(k, version, symmetry);
 }
 
@@ -244,6 +260,7 @@ FactorReport Condensed::factor(const SparseMatrix& k, std::uint64_t pattern_vers
   s.version = pattern_version;
   s.symmetry = symmetry;
   s.symmetric = symmetry != Symmetry::unsymmetric;
+  s.condensed = false;
   s.condensed = s.pays(k, symmetry) && s.condense_where_it_fits(k, report);
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begun;
   s.seconds += spent.count();

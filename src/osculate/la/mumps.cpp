@@ -234,7 +234,7 @@ FactorReport Mumps::Impl::prepare(const SparseMatrix& k, std::uint64_t wanted_ve
   if (const double all = core::memory_in_all(); all > 0 && needed_bytes() > all)
     throw NotEnoughMemory(memory_text());
   // What was freed lies between what was kept, in pieces too small for the factors.
-  constexpr double large = 8e6;
+  constexpr double large = 16e6;
   if (needed_bytes() > large) (void)malloc_trim(0);
   report.seconds_analysis = seconds_since(begun);
   return report;
@@ -380,6 +380,9 @@ void Mumps::forget() {
   if (!s.open) return;
   const LibraryCall guard(s.options.blas_threads);
   s.close();
+  s.rows = {};
+  s.columns = {};
+  s.values = {};
 }
 
 double Mumps::seconds() const { return impl_->seconds; }

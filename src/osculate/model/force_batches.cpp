@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#ifdef __linux__
-#include <sys/mman.h>
-#endif
 
 namespace osculate::model {
 namespace {
@@ -23,18 +20,6 @@ void transpose(Pack& a, Pack& b, Pack& c, Pack& d) {
   b.v = __builtin_shufflevector(of_ab, of_cd, 0, 1, 4, 5);
   c.v = __builtin_shufflevector(ab, cd, 2, 3, 6, 7);
   d.v = __builtin_shufflevector(of_ab, of_cd, 2, 3, 6, 7);
-}
-
-/// Takes memory, in large pages where the system has them: what is read once a time step then is
-/// read a tenth faster.
-void reserve_in_large_pages(std::vector<Pack>& values, std::size_t count) {
-  values.reserve(count);
-#ifdef __linux__
-  constexpr std::uintptr_t page = 4096;
-  const auto begin = (reinterpret_cast<std::uintptr_t>(values.data()) + page - 1) / page * page;
-  const auto end = reinterpret_cast<std::uintptr_t>(values.data() + count);
-  if (end > begin) (void)madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
-#endif
 }
 
 /// Cells near each other behind each other: in the order of a Z curve through their middles.
@@ -104,7 +89,6 @@ void ForceBatches<Dim>::take(const BulkTerm<Dim>& bulk, std::size_t kind,
   const solid::Batch<Dim>& batch = kinds_[kind];
   const std::size_t most = (jobs.size() + lanes - 1) / lanes;
   const std::size_t begin = numbers_.size();
-  reserve_in_large_pages(numbers_, begin + most * batch.kept);
   numbers_.resize(begin + most * batch.kept);
   const auto cell_of = [&](std::size_t j) {
     return cell_nodes(bulk.model.mesh, bulk.jobs[j].cell).nodes;
@@ -147,6 +131,9 @@ void ForceBatches<Dim>::make_parts(const BulkTerm<Dim>& bulk) {
   const auto cell_of = [&](std::size_t job) {
     return cell_nodes(bulk.model.mesh, bulk.jobs[job].cell).nodes;
   };
+  // Nodes of a part have numbers of 16 bits.
+  static_assert(fours_a_part * lanes * (std::size_t{1} << Dim) <= 65536 &&
+                others_a_part * static_cast<std::size_t>(solid::max_nodes<Dim>) <= 65536);
   std::vector<Index> here;
   const auto number = [&](Index node) {
     local_.push_back(static_cast<std::uint16_t>(std::lower_bound(here.begin(), here.end(), node) -

@@ -315,7 +315,7 @@ bool BasicSystem<Dim>::Impl::Explicit::set_accelerations(double h, solve::Explic
   const Eigen::Index dofs = inverse.size(), turn_count = (dofs + dofs_a_turn - 1) / dofs_a_turn;
   const double half = 0.5 * h;
   of_turns.assign(static_cast<std::size_t>(turn_count), {});
-#pragma omp parallel for num_threads(system.bulk.threads) schedule(static)
+#pragma omp parallel for num_threads(system.bulk.threads) schedule(static) if (turn_count > 1)
   for (Eigen::Index turn = 0; turn < turn_count; ++turn) {
     const Eigen::Index begin = turn * dofs_a_turn, n = std::min(dofs_a_turn, dofs - begin);
     const auto here = [&](const Vector& v) { return v.segment(begin, n); };

@@ -14,7 +14,7 @@ namespace osculate::solid {
 ///            f = B^T V D B u + sum_ab gamma_a K_ab gamma_b u with the mean B of the strain matrix
 ///            and the modes gamma_a that do not see linear motions (reduced.hpp). Constant strains
 ///            and these modes do not work on each other, since the latter have no mean strain; so
-///            that is the cell's stiffness itself, in less than half of its numbers
+///            that is the cell's stiffness itself, in a sixth of its numbers
 /// one_point  quad4, hex8 with formulation reduced, as reduced.hpp has them
 /// points     quad4, hex8 in finite strain, with and without the mean dilatation, as
 ///            finite_forces.hpp has them

@@ -207,6 +207,26 @@ TEST(ExplicitImpact, HasTheSameBitsWithTwoThreads) {
   EXPECT_EQ(one.result.state.rates.velocity, two.result.state.rates.velocity);
 }
 
+/// 2500 cells and 5202 dofs: threads share parts of cells and turns of dofs.
+TEST(ExplicitImpact, OfManyCellsHasTheSameBitsWithThreads) {
+  const std::string text = R"(osculate: 1
+mesh: {generate: {b: {box: {x: [0, 1], y: [0, 1], elements: [50, 50]}}}}
+materials: {soft: {neo_hooke: {E: 100, nu: 0.3, density: 1}}}
+sections: [{on: b, material: soft, element: plane_strain}]
+initial_velocity: [{on: b.left, vx: 1}]
+steps: [{name: s, increments: 2, duration: 0.02, dynamics: {scheme: central_differences}}]
+)";
+  const Flight one = run_of(text, 1);
+  ASSERT_EQ(one.result.outcome, solve::Outcome::converged) << one.result.message;
+  EXPECT_GT(one.result.state.u.norm(), 0);
+  for (const int threads : {2, 3}) {
+    const Flight several = run_of(text, threads);
+    EXPECT_EQ(one.result.state.u, several.result.state.u);
+    EXPECT_EQ(one.result.state.rates.velocity, several.result.state.rates.velocity);
+    EXPECT_EQ(one.energies.back().strain, several.energies.back().strain);
+  }
+}
+
 TEST(ExplicitImpact, GoesOnFromTheMiddleWithTheSameBits) {
   const Built built =
       build_text(edited(test_file("explicit.yaml"), "increments: 4", "increments: 8"));

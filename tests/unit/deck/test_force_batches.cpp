@@ -125,5 +125,17 @@ steps: [{{name: s, increments: 1, prescribe: [{{on: b.left, ux: 0, uy: 0, uz: 0}
   }
 }
 
+TEST(ForceBatches, SayTheSameInSeveralParts) {
+  const char* const text = R"(osculate: 1
+mesh: {generate: {b: {box: {x: [1, 3], y: [0, 1], z: [0, 0.5], elements: [14, 13, 13]}}}}
+materials: {soft: {neo_hooke: {E: 100, nu: 0.3}}}
+sections: [{on: b, element: solid, material: soft}]
+steps: [{name: s, increments: 1, prescribe: [{on: b.left, ux: 0, uy: 0, uz: 0}]}]
+)";
+  const auto built = built_from(text);
+  EXPECT_GE(model::ForceBatches<3>(model::BulkTerm<3>(built.model, 1)).parts(), 2u);
+  expect_same<3>(built, 0);
+}
+
 }  // namespace
 }  // namespace osculate::deck

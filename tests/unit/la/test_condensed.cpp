@@ -124,6 +124,24 @@ TEST(Condensed, IsMumpsWhereItDoesNotPay) {
   }
 }
 
+/// What a dense matrix is too dear for is factored whole, and keeps nothing of the other way.
+TEST(Condensed, GoesBetweenWhatPaysAndWhatDoesNot) {
+  std::vector<Index> many(600);
+  std::iota(many.begin(), many.end(), Index{0});
+  Condensed solver;
+  int small = 0, all = 0;
+  for (const bool pays : {false, false, true, true, false, true}) {
+    solver.may_change(pays ? lowest() : many);
+    MatrixBuilder m = in_contact(++all, 50);
+    Mumps whole;
+    const Eigen::VectorXd expected = solved(whole, m, Symmetry::indefinite);
+    EXPECT_LE((solved(solver, m, Symmetry::indefinite) - expected).norm(), 1e-10 * expected.norm());
+    small += pays ? 1 : 0;
+    EXPECT_EQ(solver.count().small, small);
+    EXPECT_EQ(solver.count().whole, all - small);
+  }
+}
+
 /// Entries of contact come, then the others change, without a new analysis between.
 TEST(Condensed, ContactComesAndThenAllElseChanges) {
   Condensed solver;
