@@ -109,6 +109,7 @@ TEST_F(RunSpace, WritesItsFiles) {
   std::set<std::string> expected{
       "summary.json", "history.csv", "results.pvd", "written.txt",    "report.json",
       "report.html",  "log.txt",     "journal.bin", "checkpoint.bin", "checkpoint.previous.bin"};
+  expected.insert("iterations.csv");
   const std::string pvd = read(results / "results.pvd");
   for (int i = 0; i < 3; ++i)
     for (const char* part : {"bodies", "rigid", "contact0"}) {
