@@ -106,7 +106,7 @@ struct Recorder {
   void resume(const result::Checkpoint<Dim>& from, const model::BasicSystem<Dim>& system,
               const model::BasicState<Dim>& state) {
     result::claim_folder(folder, owner);
-    begin_report();
+    const std::string first = first_report();
     std::vector<io::PvdEntry> files;
     std::vector<io::HistoryRow> rows;
     for (const result::JournalEntry& e : from.entries) {
@@ -123,6 +123,7 @@ struct Recorder {
     }
     watch.resume(from.watch, system, state, converged_count == 0);
     history.emplace(folder + "/history.csv", column_names(built.history), rows);
+    begin_report(first);
     const std::vector<char>& touched = from.entries.back().touched;
     fields.resume(std::move(files), {touched.begin(), touched.end()});
     open_answers(from.entries.back().answers);
@@ -141,8 +142,18 @@ struct Recorder {
   }
 
   /// What there is of the report before the first increment, for who watches the run.
-  void begin_report() {
-    if (description.output.report) result::write_text(folder + "/report.json", report.first_json());
+  [[nodiscard]] std::string first_report() const {
+    return description.output.report ? report.first_json() : std::string{};
+  }
+
+  /// Where it cannot be written the run ends after this increment.
+  void begin_report(const std::string& first) {
+    if (first.empty()) return;
+    try {
+      result::write_text(folder + "/report.json", first);
+    } catch (const io::WriteError& error) {
+      if (write_error.empty()) write_error = error.what();
+    }
   }
 
   /// An iteration that has just been done.

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "osculate/api/recorder.hpp"
+#include "osculate/core/error.hpp"
 #include "osculate/core/memory.hpp"
 #include "osculate/core/text.hpp"
 #include "osculate/deck/parse.hpp"
@@ -125,7 +126,7 @@ void introduce(Recorder<Dim>& recorder, const result::RunIdentity& id) {
     recorder.say(fmt::format("{:<13} {:<16} {}", fact.heading, fact.name, fact.text));
   for (const std::string& warning : recorder.built.warnings) recorder.say("warning: " + warning);
   if (recorder.description.output.checkpoint > 0) recorder.checkpoints.emplace(recorder.folder, id);
-  recorder.begin_report();
+  recorder.begin_report(recorder.first_report());
 }
 
 template <int Dim>
@@ -230,8 +231,17 @@ RunOutcome run(const RunOptions& options) {
 }
 
 void rewrite_report(const std::string& folder) {
-  result::write_text(folder + "/report.html",
-                     io::report_html(result::read_text(folder + "/report.json")));
+  const std::string data = result::read_text(folder + "/report.json");
+  const auto outer = [](int depth, nlohmann::json::parse_event_t, const nlohmann::json&) {
+    return depth <= 1;
+  };
+  const nlohmann::json report = nlohmann::json::parse(data, outer, false);
+  if (const auto status = report.find("status"); status != report.end() && *status == "running")
+    throw core::InputError({}, fmt::format("the run of folder '{}' has not ended, or was killed: "
+                                           "it has left no report yet; 'osculate view {}' shows "
+                                           "what there is",
+                                           folder, folder));
+  result::write_text(folder + "/report.html", io::report_html(data));
 }
 
 }  // namespace osculate::api
