@@ -413,11 +413,13 @@ Checkpoint<Dim> read_one(const std::string& path, const std::string& folder, con
 
 std::optional<JournalEntry> next_journal_entry(const std::string& folder, std::uint64_t& at) {
   const std::string path = journal_path(folder);
-  std::optional<io::Chunk> chunk = io::next_chunk(path, "journal", version, at);
-  if (chunk && chunk->name == "model") chunk = io::next_chunk(path, "journal", version, at);
+  std::uint64_t behind = at;
+  std::optional<io::Chunk> chunk = io::next_chunk(path, "journal", version, behind);
+  if (chunk && chunk->name == "model") chunk = io::next_chunk(path, "journal", version, behind);
   if (!chunk) return std::nullopt;
   JournalEntry entry;
   load(*chunk, entry);
+  at = behind;
   return entry;
 }
 

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-#include <system_error>
+#include <algorithm>
+#include <fstream>
 
 #include "osculate/io/csv.hpp"
 
@@ -12,10 +12,16 @@ namespace {
 
 std::string iterations_path(const std::string& folder) { return folder + "/iterations.csv"; }
 
+/// The whole rows that are there: of one that a kill has cut off nothing.
 std::uint64_t iterations_kept(const std::string& folder, bool go_on) {
-  std::error_code error;
-  const std::uintmax_t size = std::filesystem::file_size(iterations_path(folder), error);
-  return error || !go_on ? 0 : size;
+  std::ifstream file(iterations_path(folder), std::ios::binary | std::ios::ate);
+  if (!file || !go_on) return 0;
+  std::streamoff kept = file.tellg();
+  for (char last = 0; kept > 0; --kept) {
+    file.seekg(kept - 1);
+    if (!file.get(last) || last == '\n') break;
+  }
+  return static_cast<std::uint64_t>(std::max<std::streamoff>(kept, 0));
 }
 
 }  // namespace
