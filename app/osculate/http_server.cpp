@@ -5,7 +5,6 @@
 #include <netinet/in.h>
 #include <poll.h>
 #include <sys/socket.h>
-#include <sys/time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -14,8 +13,8 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <exception>
 #include <string_view>
-#include <system_error>
 
 #include "osculate/core/error.hpp"
 
@@ -90,26 +89,33 @@ std::string header_of(std::string_view head, std::string_view name) {
   return {};
 }
 
-void send_all(int connection, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t n = ::send(connection, bytes.data(), bytes.size(), MSG_NOSIGNAL);
-    if (n < 0 && errno == EINTR) continue;
+/// All of it, unless the client takes nothing for ten seconds, or `ending`.
+void send_all(int connection, std::string_view bytes, const std::atomic<bool>& ending) {
+  using namespace std::chrono_literals;
+  constexpr int often = 100;  // milliseconds
+  constexpr auto patience = 10s;
+  auto last = std::chrono::steady_clock::now();
+  while (!bytes.empty() && !ending && std::chrono::steady_clock::now() - last < patience) {
+    pollfd waiting{connection, POLLOUT, 0};
+    if (::poll(&waiting, 1, often) <= 0) continue;
+    const ssize_t n = ::send(connection, bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (n < 0 && (errno == EINTR || errno == EAGAIN)) continue;
     if (n <= 0) return;
     bytes.remove_prefix(static_cast<std::size_t>(n));
+    last = std::chrono::steady_clock::now();
   }
 }
 
 /// Up to the empty line behind the headers; empty: it did not come in time, or `ending`.
 std::string head_from(int connection, const std::atomic<bool>& ending) {
-  constexpr int often = 100, patience = 50;  // milliseconds, times
+  using namespace std::chrono_literals;
+  constexpr int often = 100;  // milliseconds
+  const auto end_of_patience = std::chrono::steady_clock::now() + 5s;
   std::string head;
   std::array<char, 4096> buffer{};
-  for (int waited = 0; waited < patience && !ending;) {
+  while (std::chrono::steady_clock::now() < end_of_patience && !ending) {
     pollfd waiting{connection, POLLIN, 0};
-    if (::poll(&waiting, 1, often) <= 0) {
-      ++waited;
-      continue;
-    }
+    if (::poll(&waiting, 1, often) <= 0) continue;
     const ssize_t n = ::recv(connection, buffer.data(), buffer.size(), 0);
     if (n <= 0 || head.size() + static_cast<std::size_t>(n) > longest_request) return {};
     head.append(buffer.data(), static_cast<std::size_t>(n));
@@ -119,6 +125,14 @@ std::string head_from(int connection, const std::atomic<bool>& ending) {
   return {};
 }
 
+/// Browsers leave the port out where it is that of HTTP.
+bool is_this_machine(std::string_view host, int port) {
+  constexpr int http = 80;
+  for (const std::string_view name : {"127.0.0.1", "localhost"})
+    if (host == fmt::format("{}:{}", name, port) || (port == http && host == name)) return true;
+  return false;
+}
+
 HttpAnswer refused(int status, std::string text) { return {status, "text/plain", text + "\n"}; }
 
 }  // namespace
@@ -126,7 +140,7 @@ HttpAnswer refused(int status, std::string text) { return {status, "text/plain",
 HttpServer::HttpServer(int port, Answer answer) : answer_(std::move(answer)) {
   socket_ = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
   const int yes = 1;
-  ::setsockopt(socket_, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+  if (socket_ >= 0) ::setsockopt(socket_, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
   sockaddr_in address{};
   address.sin_family = AF_INET;
   address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
@@ -153,26 +167,31 @@ HttpServer::~HttpServer() {
 }
 
 void HttpServer::listen() {
+  using namespace std::chrono_literals;
   constexpr int often = 100, most = 64;  // milliseconds, connections
   while (!ending_) {
     pollfd waiting{socket_, POLLIN, 0};
     if (::poll(&waiting, 1, often) <= 0) continue;
     const int connection = ::accept4(socket_, nullptr, nullptr, SOCK_CLOEXEC);
-    if (connection < 0) continue;
+    if (connection < 0) {  // with all files in use, say, it would fail again at once
+      if (errno != EINTR && errno != ECONNABORTED) std::this_thread::sleep_for(100ms);
+      continue;
+    }
     if (open_ >= most) {
       ::close(connection);
       continue;
     }
-    const timeval patience{2, 0};
-    ::setsockopt(connection, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
     ++open_;
     try {
       std::thread([this, connection] {
-        serve(connection);
+        try {
+          serve(connection);
+        } catch (const std::exception&) {  // no memory for an answer: there is none
+        }
         ::close(connection);
         --open_;
       }).detach();
-    } catch (const std::system_error&) {  // no thread is to be had
+    } catch (const std::exception&) {  // no thread is to be had, or no memory
       ::close(connection);
       --open_;
     }
@@ -184,14 +203,13 @@ void HttpServer::serve(int connection) {
   if (head.empty()) return;
   const std::string_view first = std::string_view(head).substr(0, head.find("\r\n"));
   const std::size_t method = first.find(' '), target = first.rfind(' ');
-  const std::string host = header_of(head, "host");
   HttpAnswer answer;
   if (method == std::string_view::npos || target <= method ||
       !first.substr(target + 1).starts_with("HTTP/1."))
     answer = refused(400, "no request of HTTP/1");
   else if (first.substr(0, method) != "GET")
     answer = refused(405, "only GET is answered");
-  else if (host != fmt::format("127.0.0.1:{}", port_) && host != fmt::format("localhost:{}", port_))
+  else if (!is_this_machine(header_of(head, "host"), port_))
     answer = refused(403, "only requests to 127.0.0.1 and localhost are answered");
   else
     try {
@@ -205,8 +223,9 @@ void HttpServer::serve(int connection) {
                        "Cache-Control: no-store\r\nX-Content-Type-Options: nosniff\r\n"
                        "Cross-Origin-Resource-Policy: same-origin\r\n{}Connection: close\r\n\r\n",
                        answer.status, reason_of(answer.status), answer.type, answer.body.size(),
-                       answer.status == 405 ? "Allow: GET\r\n" : ""));
-  send_all(connection, answer.body);
+                       answer.status == 405 ? "Allow: GET\r\n" : ""),
+           ending_);
+  send_all(connection, answer.body, ending_);
 }
 
 }  // namespace osculate::app

@@ -33,7 +33,7 @@ class HttpServer {
   ///
   /// Errors     core::InputError: the port is taken, or may not be listened at
   HttpServer(int port, Answer answer);
-  /// Ends when the requests under way are answered.
+  /// Ends within a moment: answers that clients have not taken yet are cut off.
   ~HttpServer();
   HttpServer(const HttpServer&) = delete;
   HttpServer& operator=(const HttpServer&) = delete;

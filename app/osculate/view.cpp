@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <system_error>
 
 #include "commands.hpp"
 #include "http_server.hpp"
@@ -29,6 +31,14 @@ std::string folder_of(const std::string& given) {
                                          given, folder));
 }
 
+/// The folder's own name, however it was given: `m.results/` and `.` have one, too.
+std::string title_of(const std::string& folder) {
+  std::error_code error;
+  std::filesystem::path path = std::filesystem::absolute(folder, error).lexically_normal();
+  if (path.filename().empty()) path = path.parent_path();
+  return path.filename().string();
+}
+
 /// The files that are shown as they are. No other name is looked for: none leads out of the folder.
 struct ShownFile {
   const char *name, *type;
@@ -39,12 +49,14 @@ constexpr ShownFile shown_files[] = {
     {"log.txt", "text/plain; charset=utf-8"},
 };
 
-std::size_t number_in(const HttpRequest& request, const std::string& name) {
+/// None: the request has no such parameter, or something else than a number there.
+std::optional<std::size_t> number_in(const HttpRequest& request, const std::string& name) {
   const auto found = request.parameters.find(name);
+  if (found == request.parameters.end()) return std::nullopt;
+  const char *const begin = found->second.data(), *const end = begin + found->second.size();
   std::size_t value = 0;
-  if (found != request.parameters.end())
-    std::from_chars(found->second.data(), found->second.data() + found->second.size(), value);
-  return value;
+  const auto [stop, error] = std::from_chars(begin, end, value);
+  return error == std::errc{} && stop == end ? std::optional(value) : std::nullopt;
 }
 
 HttpAnswer answer_of(const std::string& folder, result::LiveFolder& live,
@@ -52,24 +64,23 @@ HttpAnswer answer_of(const std::string& folder, result::LiveFolder& live,
   constexpr const char* json = "application/json";
   const HttpAnswer nothing{404, "text/plain", "there is nothing of this name\n"};
   if (request.path == "/")
-    return {200, "text/html; charset=utf-8",
-            io::live_html(std::filesystem::path(folder).filename().string())};
+    return {200, "text/html; charset=utf-8", io::live_html(title_of(folder))};
   if (request.path == "/state.json") {
     const auto run = request.parameters.find("run");
     return {200, json,
             result::json_text(live.state(run == request.parameters.end() ? "" : run->second,
-                                         number_in(request, "from")))};
+                                         number_in(request, "from").value_or(0)))};
   }
   if (request.path == "/frame.json") {
-    std::optional<std::string> frame = live.frame(number_in(request, "entry"));
+    const std::optional<std::size_t> entry = number_in(request, "entry");
+    std::optional<std::string> frame = entry ? live.frame(*entry) : std::nullopt;
     return frame ? HttpAnswer{200, json, std::move(*frame)} : nothing;
   }
   for (const ShownFile& file : shown_files) {
     if (request.path != std::string("/") + file.name) continue;
     const std::filesystem::path path = std::filesystem::path(folder) / file.name;
-    std::error_code error;
-    if (std::filesystem::is_regular_file(std::filesystem::symlink_status(path, error)))
-      return {200, file.type, result::read_text(path.string())};
+    if (std::optional<std::string> text = result::own_text(path.string()))
+      return {200, file.type, std::move(*text)};
   }
   return nothing;
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -6,6 +7,13 @@
 #include <vector>
 
 namespace osculate::result {
+
+/// Bytes of a file from number `from` on, at most so many. None: there is no such file, or it
+/// cannot be read, or is no plain file: links are not followed, which could lead out of a folder.
+///
+/// Tested by  tests/system/test_view.py
+[[nodiscard]] std::optional<std::string> own_text(const std::string& path, std::uint64_t from = 0,
+                                                  std::uint64_t most = UINT64_MAX);
 
 /// The folder of a run as it is now, whether it goes on, has ended or was killed: what the page of
 /// `osculate view` asks for again and again (docs/view.md). Only what has come since is read.
@@ -22,12 +30,12 @@ class LiveFolder {
   LiveFolder& operator=(const LiveFolder&) = delete;
 
   /// `run` (a text that changes when another run begins here), `model`, `status` (`running`,
-  /// `done`, `stopped`, `killed`), `message`, `columns` of the history, `entries` from number
-  /// `from` on if `run` is the one given (else all), `iterations` of the increment under way, and
-  /// the last lines of `log`.
+  /// `done`, `stopped`, `killed`), `message` (of the run; else why its increments cannot be read),
+  /// `columns` of the history, `entries` from number `from` on if `run` is the one given (else
+  /// all), `iterations` of the increment under way, and the last lines of `log`.
   [[nodiscard]] nlohmann::json state(const std::string& run, std::size_t from);
   /// The report's frame of an entry (docs/report_data.md) as JSON; none: it has no frame.
-  [[nodiscard]] std::optional<std::string> frame(std::size_t entry) const;
+  [[nodiscard]] std::optional<std::string> frame(std::size_t entry);
 
  private:
   struct Known;

@@ -227,7 +227,7 @@ bool lock_soon(int file) {
 
 std::string owner_of_lock(const std::string& folder) {
   const std::string path = folder + "/" + lock_name;
-  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
   if (file < 0) return {};
   const bool taken = ::flock(file, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
   std::array<char, 512> text{};
