@@ -237,8 +237,16 @@ test('a report is composed of a run that goes on', () => {
   const killed = live.compose({ state: state({ status: 'killed' }), entries, frames, base: null });
   assert.equal(killed.status, 'failed');
   assert.match(killed.message, /ended without a word/);
+  assert.match(killed.message, /--restart/);
   assert.equal(killed.title, 'm.yaml');
+  const early = live.compose({ state: state({ status: 'killed', message: 'of another version' }), entries: [], frames: new Map(), base: null });
+  assert.equal(early.message, 'Its process ended without a word. of another version'); // nothing to go on from
   assert.equal(killed.summary.steps[1].name, 'step 2');
+});
+
+test('no connection is told apart from an answer that says no', () => {
+  assert.match(live.lostText(new TypeError('fetch failed')), /does not answer/);
+  assert.match(live.lostText(new Error('/state.json: 500')), /\/state.json: 500/);
 });
 
 test('the increment under way is told with its attempts', () => {

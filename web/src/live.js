@@ -37,9 +37,21 @@ function rigidOf(frames) {
   }));
 }
 
-const words = {
-  killed: 'Its process ended without a word; what had converged is shown. osculate run --restart goes on from there.',
-};
+const killedText = 'Its process ended without a word';
+
+/** What is said of how the run stands. */
+function messageOf(state, entries) {
+  if (state.status !== 'killed') return state.message;
+  const there = entries.length ? '; what had converged is shown. osculate run --restart goes on from there' : '';
+  return [`${killedText}${there}.`, state.message].filter(Boolean).join(' ');
+}
+
+/** What is said when an answer of the server is missing. */
+export function lostText(error) {
+  return error instanceof TypeError
+    ? 'osculate view does not answer any more: this is what was known last.'
+    : `osculate view cannot tell how the run stands (${error.message}): this is what was known last.`;
+}
 
 /** The report (docs/report_data.md) of what is known. */
 export function compose({ state, entries, frames, base }) {
@@ -56,7 +68,7 @@ export function compose({ state, entries, frames, base }) {
   return {
     title: base?.title || state.model, osculate: base?.osculate, live: true,
     status: state.status === 'done' ? 'done' : ended ? 'failed' : 'running',
-    message: words[state.status] ?? state.message,
+    message: messageOf(state, entries),
     model: base?.model, plots: base?.plots, mesh: base?.mesh,
     summary: { steps: steps.filter((s) => s.increments.length) }, iterations,
     history: { columns: state.columns, rows: entries.map((entry) => entry.row) },
@@ -98,14 +110,18 @@ export function underWay({ state, entries, base }) {
   };
 }
 
-/** The section of the increment under way; `update(known)` fills it. */
+const emptyCurves = ['residual', 'energy'].map((label) => ({ label, x: [], y: [] }));
+
+/** The section of the increment under way; `update(known)` fills it. To be made outside of any scope: it stays. */
 function liveSection(follow) {
   const text = el('p', { class: 'message' });
   const log = el('pre', { class: 'log' });
   const charts = el('div');
   const section = el('section', { id: 'live' }, el('h2', {}, 'Now'), el('div', { class: 'controls' }, follow), text,
     el('div', { class: 'grid' }, charts, log));
-  let chart = null;
+  const chart = plot(charts, {
+    title: 'Iterations of this increment', xlabel: 'iteration', ylabel: 'measure, relative', logY: true, integerX: true,
+  }, emptyCurves);
   return {
     section,
     update(known) {
@@ -114,11 +130,7 @@ function liveSection(follow) {
       text.replaceChildren(...[now?.text ?? 'nothing has been iterated yet', now?.measures, now?.counts]
         .filter(Boolean).map((line) => el('div', {}, line)));
       log.textContent = known.state.log.join('\n');
-      if (!now) return;
-      chart ??= plot(charts, {
-        title: 'Iterations of this increment', xlabel: 'iteration', ylabel: 'measure, relative', logY: true, integerX: true,
-      }, now.curves);
-      chart.show(now.curves);
+      chart.show(now ? now.curves : emptyCurves);
     },
   };
 }
@@ -161,18 +173,28 @@ function attention(root) {
       touched = Date.now();
     }, true);
   }
+  addEventListener('pointermove', (e) => { // a list that drops down may keep the end of a press to itself
+    if (!e.buttons) pressed = false;
+  }, true);
+  addEventListener('change', () => {
+    pressed = false;
+    touched = Date.now();
+  }, true);
+  addEventListener('blur', () => { pressed = false; });
   const chosen = () => root.contains(document.activeElement) && document.activeElement.matches('select, input');
   return () => pressed || (chosen() && Date.now() - touched < 4000);
 }
 
-/** Builds the page of a report in `host`, looking at the bodies as before; `live` stays, below the heading. */
+/** Builds the page of a report in `host`, looking at the bodies of the same run as before; `live` stays, below the heading. */
 function builder(host, live) {
   let end = () => {};
   let view = null;
+  let shown = null;
   return {
     playing: () => view?.playing() ?? false,
-    show(report) {
-      const look = view?.look();
+    show(report, run) {
+      const look = run === shown ? view?.look() : undefined;
+      shown = run;
       const opened = [...host.querySelectorAll('details')].map((d) => d.open);
       host.style.minHeight = `${host.offsetHeight}px`; // the place on the page stays
       end();
@@ -190,7 +212,7 @@ function builder(host, live) {
 export function watch(root) {
   let following = true;
   const live = liveSection(tick('follow the run', true, (on) => { following = on; }));
-  const lost = el('p', { class: 'warning', hidden: true }, 'osculate view does not answer any more: this is what was known last.');
+  const lost = el('p', { class: 'warning', hidden: true });
   const host = el('div', {}, live.section);
   root.replaceChildren(lost, host);
   const page = builder(host, live.section);
@@ -204,7 +226,7 @@ export function watch(root) {
     const final = now !== built ? await finalReport(known) : null;
     if (now === built || (!final && (!following || page.playing())) || busy() || Date.now() < pause) return;
     const begin = Date.now();
-    page.show(final ?? compose(known));
+    page.show(final ?? compose(known), known.run);
     pause = Date.now() + 4 * (Date.now() - begin);
     const there = final || known.state.status === 'running' || known.state.status === 'killed';
     tries = there ? 0 : tries + 1; // a run that found the disk full has left no report
@@ -213,6 +235,7 @@ export function watch(root) {
   const again = async () => {
     const error = await look().then(() => null, (reason) => reason);
     lost.hidden = !error;
+    if (error) lost.textContent = lostText(error);
     if (error && !(error instanceof TypeError)) console.error(error);
     setTimeout(again, 1000);
   };
