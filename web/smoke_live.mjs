@@ -113,6 +113,7 @@ async function main() {
   const ask = async () => (await fetch(`${url}state.json`)).json();
   const page = await browser();
   await page.send('Page.navigate', { url });
+  await until('plot', () => page.evaluate(`document.querySelectorAll('#live canvas').length`), (n) => n === 1);
 
   /** The page as it has to be with the run standing still. */
   const compare = async (name) => {
@@ -144,6 +145,7 @@ async function main() {
   await page.evaluate(click('#body button[title="zoom in"]'));
   await further(run, 5);
   made = await compare('second');
+  equal('plot', await page.evaluate(`document.querySelectorAll('#live canvas').length`), 1); // the page has been built anew meanwhile
   equal('field', await page.evaluate(`document.querySelector('#body select').value`), 'displacement ux');
   if (!(await readout()).includes(last())) problems.push(`second: the last frame is not shown: ${await readout()}`);
   await picture(page, 'second');

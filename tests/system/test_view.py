@@ -178,8 +178,8 @@ class View(unittest.TestCase):
         rows = self.table("iterations.csv")
         self.assertGreater(sum(i["cutbacks"] for i in increments), 0)
         self.assertGreater(sum(i["wasted_iterations"] for i in increments), 0)
-        if summary["status"] == "done":
-            self.assertEqual(len(rows), sum(i["iterations"] + i["wasted_iterations"] for i in increments))
+        self.assertEqual(summary["status"], "done")
+        self.assertEqual(len(rows), sum(i["iterations"] + i["wasted_iterations"] for i in increments))
 
     def test_a_run_that_was_killed_is_shown_and_its_restart(self):
         self.write(model(increments=30))
@@ -206,6 +206,61 @@ class View(unittest.TestCase):
         second = self.state(first["run"], len(first["entries"]))
         self.assertEqual((second["from"], len(second["entries"])), (0, len(first["entries"]) + 1))
         self.expect_the_end(second)
+
+    def test_another_journal_in_the_same_file_is_another_run(self):
+        self.write(model(increments=2))
+        self.go_on(self.start("run", "m.yaml"))
+        self.write(model(increments=9))
+        self.go_on(self.start("run", "m.yaml", "-o", "other"))
+        self.view("m.results")
+        first = self.state()
+        self.assertEqual(len(first["entries"]), 7)
+        with open(self.path("other", "journal.bin"), "rb") as file:
+            other = file.read()
+        with open(self.path("m.results", "journal.bin"), "r+b") as file:  # as a number that is given out again
+            self.assertGreater(len(other), len(file.read()))
+            file.seek(0)
+            file.write(other)
+        second = self.state(first["run"], 7)
+        self.assertNotEqual(second["run"], first["run"])
+        self.assertEqual((second["from"], len(second["entries"])), (0, 14))
+
+    def test_a_journal_of_another_version_is_told_of(self):
+        self.write(model(increments=1))
+        self.go_on(self.start("run", "m.yaml"))
+        with open(self.path("m.results", "journal.bin"), "r+b") as file:
+            head = file.readline()
+            file.seek(0)
+            file.write(head[:-2] + (b"0" if head[-2:-1] != b"0" else b"1"))
+        self.view("m.results")
+        state = self.state()
+        self.assertEqual((state["status"], state["entries"]), ("done", []))
+        self.assertIn("is of another version", state["message"])
+        self.assertEqual(self.code("frame.json?entry=0"), 404)
+
+    def test_a_picture_may_be_the_first_that_is_asked_for(self):
+        self.write(model(increments=1))
+        self.go_on(self.start("run", "m.yaml"))
+        self.view("m.results/")
+        self.assertEqual(json.loads(self.get("frame.json?entry=0"))["time"], 0)
+        for entry in ("-1", "x", "99", "", "0x", "1 "):
+            self.assertEqual(self.code("frame.json?entry=" + urllib.parse.quote(entry)), 404, entry)
+        self.assertEqual(self.code("frame.json"), 404)
+        self.assertIn("<title>m.results</title>", self.get("").decode())
+
+    def test_a_client_that_takes_nothing_does_not_hold_up_the_end(self):
+        self.write(model(increments=1))
+        self.go_on(self.start("run", "m.yaml"))
+        with open(self.path("m.results", "report.json"), "wb") as file:
+            file.write(b" " * 64_000_000)  # more than the system keeps for a client
+        process = self.view("m.results")
+        port = urllib.parse.urlsplit(self.url).port
+        with socket.create_connection(("127.0.0.1", port), timeout=20) as connection:
+            connection.sendall(f"GET /report.json HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\n\r\n".encode())
+            self.assertEqual(connection.recv(1), b"H")
+            process.send_signal(signal.SIGINT)
+            process.communicate(timeout=2)
+        self.assertEqual(process.returncode, 0)
 
     def test_watching_disturbs_no_run_that_begins(self):
         self.write(model(increments=1))
@@ -272,6 +327,7 @@ class View(unittest.TestCase):
         os.remove(self.path("m.results", "log.txt"))
         os.symlink(self.path("secret.txt"), self.path("m.results", "log.txt"))
         self.assertEqual(self.code("log.txt"), 404)
+        self.assertEqual(self.state()["log"], [])
         for method in ("POST", "PUT", "DELETE", "HEAD", "OPTIONS"):
             self.assertEqual(self.code("summary.json", method), 405, method)
         for host in ("example.org", "example.org:80", ""):
