@@ -50,7 +50,7 @@ template <int Dim>
 struct Conjugate {
   Vec<Dim - 1> value = Vec<Dim - 1>::Zero();
   std::array<FullForm<Dim>, directions<Dim>> variation;  ///< without the traction's own change
-  std::array<Vec<Dim>, directions<Dim>> of_traction;  ///< dT^j = of_traction . dt + variation
+  std::array<Vec<Dim>, directions<Dim>> of_traction;     ///< dT^j = of_traction . dt + variation
 };
 
 // @eq KS2D:39, KSVD:33 with the exact d(xi^i): t . rho_,i d(xi^i) = T^j (rho_,j . v_0 - gap n .

@@ -94,9 +94,7 @@ Kinematics<2> kinematics(const Master& m, const Eigen::VectorXd& x) {
 /// The relative variations a Form is applied to.
 struct Relative {
   Vec2 p, q, r;
-  [[nodiscard]] double of(const Form<2>& f) const {
-    return f[0].dot(p) + f[1].dot(q);
-  }
+  [[nodiscard]] double of(const Form<2>& f) const { return f[0].dot(p) + f[1].dot(q); }
 };
 
 Relative relative(const Master& m, const Eigen::VectorXd& d) {
