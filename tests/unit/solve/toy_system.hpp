@@ -31,7 +31,8 @@ struct ToySystem {
   std::function<int(const Vector& x)> touching = [](const Vector&) { return 0; };
   double round_off = 0, round_off_in_time = 0;  ///< the estimates
   bool loaded = true;
-  std::vector<Vector> evaluated;  ///< every x that `evaluate` saw
+  std::vector<Vector> evaluated;   ///< every x that `evaluate` saw
+  std::vector<bool> with_tangent;  ///< and whether it was asked for the tangent
   std::vector<double> predicted_to;
   la::MatrixBuilder builder{size};
 
@@ -57,6 +58,7 @@ struct ToySystem {
   void evaluate(const State& committed, const State& trial, double time, bool tangent,
                 Evaluation& out) {
     evaluated.push_back(trial.x);
+    with_tangent.push_back(tangent);
     out.ok = true;
     if (wrong) {
       out.message = wrong(trial.x, committed.x);
