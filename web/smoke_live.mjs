@@ -124,9 +124,8 @@ async function main() {
       String(made.reduce((sum, e) => sum + e.increment.iterations, 0)));
     const [, number, , iteration] = state.iterations.at(-1);
     const now = await page.evaluate(text('#live .message'));
-    for (const part of [`increment ${number} `, state.iterations.at(-1)[4].toPrecision(2).slice(0, 3)]) {
-      if (!now.includes(part)) problems.push(`${name}: '${now}' lacks '${part}'`);
-    }
+    equal(`${name}: residual`, Number(/residual ([-+.\de]+)/.exec(now)?.[1]), Number(state.iterations.at(-1)[4].toPrecision(3)));
+    if (!now.includes(`increment ${number} `)) problems.push(`${name}: '${now}' lacks increment ${number}`);
     if (!/converged/.test(now) && !now.includes(`iteration ${iteration}`)) problems.push(`${name}: ${now}`);
     equal(`${name}: log`, await page.evaluate(text('#live .log')), state.log.join('\n'));
     equal(`${name}: status`, await page.evaluate(text('.badge')), 'still running');

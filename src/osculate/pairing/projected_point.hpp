@@ -27,6 +27,7 @@ struct ProjectedPoint {
 ///
 /// `order`: highest derivative of the shape functions that is asked for (3: those of the curvature
 /// too); inside a smooth patch there are no others, nor third derivatives of its place below 3.
+/// With 0 the forms of the kinematics on faces are left zero.
 ///
 /// Requires   p.feature is not none
 /// Tested by  tests/unit/pairing/test_pair_tangent.cpp, test_pair3_tangent.cpp

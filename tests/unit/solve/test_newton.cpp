@@ -409,32 +409,6 @@ TEST(Newton, LineSearchFindsTheStickingRange) {
   EXPECT_LT(on.iterations[1].step, 1.0);
 }
 
-/// The search evaluates a full correction with its tangent: what it takes is not evaluated again.
-TEST(Newton, WhatTheSearchTakesIsNotEvaluatedTwice) {
-  ToySystem system = scalar_system([](double x, double) { return x * x * x + x - 2; },
-                                   [](double x) { return 3 * x * x + 1; });
-  const auto result = solve_from(system, 2, {});
-  ASSERT_EQ(result.outcome, Outcome::converged) << result.reason;
-  ASSERT_GT(result.iterations.size(), 3u);
-  const std::vector<Eigen::VectorXd>& seen = system.evaluated;
-  EXPECT_EQ(seen.back(), result.trial.x);
-  EXPECT_EQ(std::adjacent_find(seen.begin(), seen.end()), seen.end());
-}
-
-/// Near the solution the search does without: the next iterate may be the last one, which needs
-/// none.
-TEST(Newton, TheLastIterateHasNoTangentThatNobodyNeeds) {
-  ToySystem system = scalar_system([](double x, double) { return x * x * x + x - 2; },
-                                   [](double x) { return 3 * x * x + 1; });
-  const auto result = solve_from(system, 1.001, {});
-  ASSERT_EQ(result.outcome, Outcome::converged) << result.reason;
-  ASSERT_EQ(result.iterations.size(), 2u);
-  EXPECT_LT(result.iterations[0].residual, 1e-5);
-  EXPECT_EQ(system.evaluated.back(), result.trial.x);
-  EXPECT_FALSE(system.with_tangent.back());
-  EXPECT_TRUE(system.with_tangent[system.with_tangent.size() - 2]);
-}
-
 /// An evaluation that has no answer shortens the correction instead of ending the attempt.
 TEST(Newton, LineSearchStaysWhereThereIsAnAnswer) {
   // atan: from 1.45 to -1.551, from there the full correction would go to 1.848.
