@@ -190,13 +190,8 @@ bool Iterative::Impl::build(CompressedRows&& a) {
 bool Iterative::Impl::resists_all() {
   constexpr double worst_condition = 1e13;
   const CompressedRows& a = bodies->matrix();
-  Eigen::VectorXd noise(a.rows());
-  std::uint32_t bits = 1;
-  for (double& value : noise) {
-    bits = 1664525U * bits + 1013904223U;
-    value = static_cast<double>(bits >> 8U) / (1U << 23U) - 1;
-  }
-  Eigen::VectorXd scaled = noise.cwiseProduct(a.diagonal().cwiseAbs().cwiseSqrt());
+  const Eigen::VectorXd given = noise(a.rows());
+  Eigen::VectorXd scaled = given.cwiseProduct(a.diagonal().cwiseAbs().cwiseSqrt());
   const double force = scaled.stableNorm();
   if (!(force > 0)) return false;
   PreconditionedLimits limits;
@@ -205,7 +200,7 @@ bool Iterative::Impl::resists_all() {
       [this](Eigen::VectorXd& r) { return precondition(r); }, limits, scaled);
   work.iterations += done.iterations;
   const double motion = scaled.cwiseProduct(a.diagonal().cwiseAbs().cwiseSqrt()).stableNorm();
-  tried = done.solved && motion <= worst_condition * noise.stableNorm();
+  tried = done.solved && motion <= worst_condition * given.stableNorm();
   return tried;
 }
 

@@ -1,24 +1,86 @@
 #include "osculate/la/nearby.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 #include <vector>
 
 #include "osculate/la/preconditioned.hpp"
 
 namespace osculate::la {
 
+Eigen::VectorXd NearbySolutions::times(const Eigen::VectorXd& x) const {
+  return symmetry_ == Symmetry::unsymmetric ? multiply(k_, x) : multiply_symmetric(k_, x);
+}
+
+/// False: nothing new.
+bool NearbySolutions::look_along(Eigen::VectorXd z) {
+  constexpr double nothing = 1e-12;
+  Eigen::VectorXd v = times(z);
+  const double whole = v.norm();
+  for (int twice = 0; twice < 2; ++twice)
+    for (std::size_t j = 0; j < along_.size(); ++j) {
+      const double part = image_[j].dot(v);
+      v -= part * image_[j];
+      z -= part * along_[j];
+    }
+  const double size = v.norm();
+  if (!(size > nothing * whole) || !std::isfinite(size)) return false;
+  image_.push_back(v / size);
+  along_.push_back(z / size);
+  return true;
+}
+
+Nearby NearbySolutions::solve(const NearbyLimits& limits, Eigen::VectorXd& rhs_in_solution_out) {
+  const Eigen::VectorXd& b = rhs_in_solution_out;
+  Nearby result;
+  if (k_.n == 0 || limits.iterations < 1 || b.size() != k_.n || !b.allFinite()) return result;
+  constexpr double rounding = 1 + 1e-6, hardly = 0.5;
+  const double wanted = limits.tolerance * b.stableNorm();
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(k_.n), rest = b;
+  const auto take = [&](std::size_t j) {
+    const double part = image_[j].dot(rest);
+    x += part * along_[j];
+    rest -= part * image_[j];
+  };
+  for (std::size_t j = 0; j < along_.size(); ++j) take(j);
+  bool stagnates = false;
+  for (double left = rest.stableNorm();; left = rest.stableNorm()) {
+    if (left <= wanted) {  // as summed up: what does K say?
+      rest = b - times(x);
+      left = rest.stableNorm();
+      result.solved = left <= rounding * wanted && x.allFinite();
+      if (result.solved) break;
+    }
+    if (result.iterations == limits.iterations) return result;
+    Eigen::VectorXd z = stagnates ? image_.back() : rest;
+    ++result.iterations;
+    if (factors_.solve_once(z) != SolveStatus::ok || !look_along(std::move(z))) return result;
+    take(along_.size() - 1);
+    stagnates = rest.stableNorm() > hardly * left;
+  }
+  rhs_in_solution_out = std::move(x);
+  return result;
+}
+
+Nearby NearbySolutions::resists_all(int iterations) {
+  constexpr double tolerance = 1e-5, far = 1e8;
+  Eigen::VectorXd root = Eigen::VectorXd::Zero(k_.n);
+  for (Index i = 0; i < k_.n; ++i)
+    for (Index e = k_.row_start[static_cast<std::size_t>(i)];
+         e < k_.row_start[static_cast<std::size_t>(i) + 1]; ++e)
+      if (k_.column[static_cast<std::size_t>(e)] == i)
+        root[i] = std::sqrt(std::abs(k_.value[static_cast<std::size_t>(e)]));
+  const Eigen::VectorXd force = noise(k_.n);
+  Eigen::VectorXd x = force.cwiseProduct(root);
+  Nearby result = solve({iterations, tolerance}, x);
+  result.solved = result.solved && x.cwiseProduct(root).stableNorm() <= far * force.stableNorm();
+  return result;
+}
+
 Nearby solve_nearby(const SparseMatrix& k, Symmetry symmetry, LinearSolver& factors,
                     const NearbyLimits& limits, Eigen::VectorXd& rhs_in_solution_out) {
-  if (k.n == 0 || limits.iterations < 1 || rhs_in_solution_out.size() != k.n) return {};
-  PreconditionedLimits once;
-  once.tolerance = once.good_enough = limits.tolerance;
-  once.iterations = once.restart = limits.iterations;
-  return solve_preconditioned(
-      [&](const Eigen::VectorXd& x, Eigen::VectorXd& y) {
-        y = symmetry == Symmetry::unsymmetric ? multiply(k, x) : multiply_symmetric(k, x);
-      },
-      [&factors](Eigen::VectorXd& x) { return factors.solve_once(x) == SolveStatus::ok; }, once,
-      rhs_in_solution_out);
+  return NearbySolutions(k, symmetry, factors).solve(limits, rhs_in_solution_out);
 }
 
 FactorReport factor_symmetric_part(const SparseMatrix& k, std::uint64_t pattern_version,
@@ -38,13 +100,17 @@ FactorReport factor_symmetric_part(const SparseMatrix& k, std::uint64_t pattern_
 }
 
 int affordable_iterations(const FactorReport& factors, const SparseMatrix& k) {
-  constexpr double per_operation = 1.0 / 8e9, per_factor_entry = 3e-9, per_entry = 1.2e-9,
-                   share = 0.5, most = 40;
+  constexpr double per_operation = 1.0 / 16e9, per_factor_entry = 9e-9, per_entry = 25e-9;
+  constexpr double per_unknown = 5e-8, near = 0.45e-9, far = 1.2e-9, cached = 1.5e6, most = 40;
   if (!(factors.operations > 0)) return 0;
-  const auto entries = static_cast<double>(factors.factor_entries);
-  const double whole = factors.operations * per_operation + entries * per_factor_entry;
-  const double iteration = per_entry * (entries + static_cast<double>(k.value.size()));
-  return static_cast<int>(std::min(most, share * whole / iteration));
+  const auto in_factors = static_cast<double>(factors.factor_entries),
+             in_matrix = static_cast<double>(k.value.size());
+  const double entries = in_factors + in_matrix;
+  const double whole =
+      factors.operations * per_operation + in_factors * per_factor_entry + in_matrix * per_entry;
+  const double iteration = per_unknown * static_cast<double>(k.n) +
+                           near * std::min(entries, cached) + far * std::max(entries - cached, 0.0);
+  return static_cast<int>(std::min(most, whole / iteration));
 }
 
 }  // namespace osculate::la

@@ -1,4 +1,6 @@
 #pragma once
+#include <vector>
+
 #include "osculate/la/linear_solver.hpp"
 
 namespace osculate::la {
@@ -14,13 +16,38 @@ struct NearbyLimits {
   double tolerance = 1e-8;  ///< of the residual beside the right-hand side
 };
 
-/// Solves K x = b with what `factors` has factored before, a matrix near to K: by GMRES, with these
-/// factors as its preconditioner.
+/// Solutions of K x = b with what `factors` has factored before, a matrix near to K. What was
+/// looked along for one right-hand side is not looked along again for the next one of the same K.
 ///
-/// Returns    `solved` where |b - K x| <= tolerance |b|; else nothing is changed
-/// Source     Y. Saad, M. H. Schultz, SIAM J. Sci. Stat. Comput. 7 (1986) 856-869
-/// Requires   `factors` has factors of a matrix of this size
+/// Formula    z = M^-1 r , v = K z orthonormal to those before; x += (v . r) z , r -= (v . r) v :
+///            the smallest residual over all z, as by GMRES, by one solution with M each. Where the
+///            last step has left half of r, z = M^-1 v
+/// Source     P. Jiranek, M. Rozloznik, Numer. Algorithms 53 (2010) 93-112 (adaptive simpler GMRES)
+/// Requires   `factors` has factors of a matrix of this size, and lives as long as this
 /// Tested by  tests/unit/la/test_nearby.cpp
+class NearbySolutions {
+ public:
+  NearbySolutions(const SparseMatrix& k, Symmetry symmetry, LinearSolver& factors)
+      : k_(k), symmetry_(symmetry), factors_(factors) {}
+  /// Returns    `solved` where |b - K x| <= tolerance |b|; else nothing is changed
+  Nearby solve(const NearbyLimits& limits, Eigen::VectorXd& rhs_in_solution_out);
+  /// Whether K resists all motions: noise is no force that a singular matrix balances, though the
+  /// loads may be.
+  ///
+  /// Formula    K x = D^1/2 noise to 1e-5, |D^1/2 x| <= 1e8 |noise|, D the diagonal
+  Nearby resists_all(int iterations);
+
+ private:
+  [[nodiscard]] Eigen::VectorXd times(const Eigen::VectorXd& x) const;
+  bool look_along(Eigen::VectorXd z);
+
+  const SparseMatrix& k_;
+  Symmetry symmetry_;
+  LinearSolver& factors_;
+  std::vector<Eigen::VectorXd> along_, image_;  ///< K along = image
+};
+
+/// One solution.
 [[nodiscard]] Nearby solve_nearby(const SparseMatrix& k, Symmetry symmetry, LinearSolver& factors,
                                   const NearbyLimits& limits, Eigen::VectorXd& rhs_in_solution_out);
 
@@ -31,12 +58,13 @@ struct NearbyLimits {
 FactorReport factor_symmetric_part(const SparseMatrix& k, std::uint64_t pattern_version,
                                    LinearSolver& solver);
 
-/// How many iterations of `solve_nearby` are cheaper than half a factorisation: a function of the
-/// report of the factors and the pattern alone, so that the same analysis takes the same way on any
+/// How many iterations of `solve_nearby` are cheaper than a factorisation: a function of the report
+/// of the factors and the pattern alone, so that the same analysis takes the same way on any
 /// machine.
 ///
-/// Formula    seconds = operations / 8e9 + 3e-9 entries of a factorisation, 1.2e-9 (entries of the
-///            factors + entries of the matrix) of an iteration; at most 40
+/// Formula    seconds = operations / 16e9 + 9e-9 entries of the factors + 25e-9 entries of the
+///            matrix of a factorisation; 5e-8 unknowns + 0.45e-9 (entries of the factors + entries
+///            of the matrix) of an iteration, 1.2e-9 beyond 1.5e6 of these; at most 40
 [[nodiscard]] int affordable_iterations(const FactorReport& factors, const SparseMatrix& k);
 
 }  // namespace osculate::la

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <unsupported/Eigen/IterativeSolvers>
 #include <utility>
 
@@ -70,6 +71,16 @@ Nearby solve_preconditioned(const Multiply& a, const Precondition& precondition,
   result.solved = left <= rounding * std::max(limits.tolerance, limits.good_enough) * size;
   if (result.solved) rhs_in_solution_out = std::move(x);
   return result;
+}
+
+Eigen::VectorXd noise(Eigen::Index n) {
+  Eigen::VectorXd values(n);
+  std::uint32_t bits = 1;
+  for (double& value : values) {
+    bits = 1664525U * bits + 1013904223U;
+    value = static_cast<double>(bits >> 8U) / (1U << 23U) - 1;
+  }
+  return values;
 }
 
 }  // namespace osculate::la

@@ -32,4 +32,7 @@ struct PreconditionedLimits {
                                           const PreconditionedLimits& limits,
                                           Eigen::VectorXd& rhs_in_solution_out);
 
+/// Numbers between -1 and 1, always the same ones.
+[[nodiscard]] Eigen::VectorXd noise(Eigen::Index n);
+
 }  // namespace osculate::la

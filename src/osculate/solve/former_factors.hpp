@@ -8,14 +8,17 @@
 namespace osculate::solve::detail {
 
 /// The factors of a former iteration of the same increment, which solve for further corrections.
-/// Where points have changed their states since, a thousandth of what is out of balance may be
-/// left: the next iteration finds other states anyway. Once two iterations have the same states
-/// these are factored, and no increment ends with factors of others (`of_other_states`): something
-/// may have come loose that was held. Not where the energy alone says when iterations end.
+/// Where points have changed their states since, a millionth of what is out of balance may be
+/// left: the next iteration finds other states anyway. Once two iterations have the same states,
+/// something may have come loose that was held: a solution for noise says whether all is held in
+/// unsymmetric tangents; those of symmetric kinds are factored, as their pivots are counted. No
+/// increment ends before that (`of_other_states`). Not where the energy alone says when iterations
+/// end.
 ///
 /// Formula    |R + K du| <= a tenth of the residual that ends the iterations, and 1e-4 |R|: where
 ///            the rest of the way is linear it is the last correction, as by factors of its own;
-///            1e-3 |R| where states have changed
+///            1e-6 |R| where states have changed
+/// Decision   docs/decisions/059-former-factors.md, 091-noise-instead-of-factors.md
 /// Tested by  tests/unit/solve/test_former_factors.cpp
 class FormerFactors {
  public:
@@ -23,8 +26,10 @@ class FormerFactors {
   explicit FormerFactors(double wanted) : wanted_(wanted) {}
   /// The last correction took a factorisation.
   [[nodiscard]] bool fresh() const { return fresh_; }
-  /// The last correction came by factors of other states.
-  [[nodiscard]] bool of_other_states() const { return !fresh_ && last_ != states_; }
+  /// The last correction came by factors of other states, and nothing has said that all is held.
+  [[nodiscard]] bool of_other_states() const {
+    return !fresh_ && last_ != states_ && last_ != tried_;
+  }
   /// Points have other states than at the last factorisation: what is there of it does not know
   /// what has come loose.
   template <class Trial>
@@ -44,10 +49,11 @@ class FormerFactors {
     fresh_ = true;
     first_ = false;
   }
-  /// How much of the residual may be left by a correction.
+  /// How much of the residual may be left by a correction of a solver that iterates.
   template <class Trial>
   [[nodiscard]] double aim(const NewtonResult<Trial>& result) const {
-    return std::max(wanted(result), moved_ && wanted_ > 0 ? on_the_way : 0.0);
+    constexpr double by_multigrid = 1e-3;
+    return std::max(wanted(result), moved_ && wanted_ > 0 ? by_multigrid : 0.0);
   }
   /// du = -K^-1 R ; false: the tangent of `system` is to be factored.
   template <System S>
@@ -60,28 +66,61 @@ class FormerFactors {
     constexpr double least = 1e-9, most = 1e-4;
     constexpr int tries = 2;
     if (affordable_ < 1) return false;
-    if (changed && (settled || failures_ >= tries || wanted_ <= 0 || wanted(result) >= share))
+    if (changed && (failures_ >= tries || wanted_ <= 0)) return false;
+    // Never at rest; or pivots have to be counted.
+    if (changed &&
+        (settled ? system.symmetry() != la::Symmetry::unsymmetric : wanted(result) >= share))
       return false;
-    const double tolerance = changed ? on_the_way : std::clamp(wanted(result), least, most);
+    const bool moving = changed && !settled;
+    const double tolerance = moving ? on_the_way : std::clamp(wanted(result), least, most);
+    la::NearbySolutions by(system.matrix(), system.symmetry(), solver);
     du = -residual;
-    fresh_ =
-        !la::solve_nearby(system.matrix(), system.symmetry(), solver, {affordable_, tolerance}, du)
-             .solved;
+    fresh_ = !(moving || resists_all(by)) || !by.solve({affordable_, tolerance}, du).solved;
     if (changed && fresh_) ++failures_;
     return !fresh_;
   }
 
+  /// Whether an increment may end here: where nothing has said that all is held, the tangent at
+  /// hand is tried by noise, or factored. False: what is not held is for the next iteration to
+  /// find. Where pivots tell of unstable equilibria no increment ends with former factors.
+  template <System S>
+  bool holds_all(S& system, la::LinearSolver& solver, NewtonResult<typename S::Trial>& result) {
+    const bool symmetric = system.symmetry() != la::Symmetry::unsymmetric;
+    bool pivots_count = false;
+    if constexpr (requires { system.at_rest(); })
+      pivots_count = symmetric && !result.evaluation.saddle && system.at_rest();
+    if (fresh_ || !(pivots_count || of_other_states())) return true;
+    const la::SparseMatrix& k = system.matrix();
+    la::NearbySolutions by(k, system.symmetry(), solver);
+    if (!symmetric && resists_all(by)) return true;
+    const la::FactorReport report = solver.factor(k, system.pattern_version(), system.symmetry());
+    forget();
+    if (report.status != la::SolveStatus::ok || report.condition > 0) return false;
+    result.iterations.back().factored = true;
+    result.whole_factors = report.whole;
+    result.negative_pivots = report.negative_pivots;
+    return true;
+  }
+
  private:
+  /// Whether the tangent holds everything, where its states are not those of the factors.
+  bool resists_all(la::NearbySolutions& by) {
+    if (last_ == states_ || last_ == tried_) return true;
+    if (!by.resists_all(affordable_).solved) return false;
+    tried_ = last_;
+    return true;
+  }
   /// To be left of the residual where it is the last correction.
   template <class Trial>
   [[nodiscard]] double wanted(const NewtonResult<Trial>& result) const {
     const double now = result.iterations.empty() ? 1.0 : result.iterations.back().residual;
     return share * wanted_ / now;
   }
-  static constexpr double share = 0.1, on_the_way = 1e-3;
+  static constexpr double share = 0.1, on_the_way = 1e-6;
   double wanted_;
   int affordable_ = 0;                   ///< iterations; none without factors
   std::uint64_t states_ = 0, last_ = 0;  ///< of the factors, and of the last correction
+  std::uint64_t tried_ = 0;              ///< of a tangent that resists all motions
   bool fresh_ = true, first_ = true;
   bool symmetric_part_serves_ = true;
   bool moved_ = false;  ///< points have other states than at the last correction

@@ -230,7 +230,6 @@ bool conclude(Judge& judge, const Eigen::VectorXd& du, double step, double energ
   judge.look_for_divergence(record);
   result.precision.round_off = false;
   if (!judge.settled(result.precision.condition, e.saddle, correction, energy_before)) return false;
-  if (former.of_other_states()) return false;
   if (!judge.done(record.residual, energy_before, energy_after)) {
     const bool rounding =
         judge.only_rounding(e, record.residual, energy_before, result.first_residual) ||
@@ -250,9 +249,11 @@ bool conclude(Judge& judge, const Eigen::VectorXd& du, double step, double energ
 
 /// False where the iterations would end with a tangent that leaves something free to move: the next
 /// one finds out what.
-template <class Trial>
-bool is_sound(la::LinearSolver& solver, NewtonResult<Trial>& result) {
-  if (result.outcome != Outcome::converged || solver.sound()) return true;
+template <System S>
+bool is_sound(S& system, la::LinearSolver& solver, FormerFactors& former,
+              NewtonResult<typename S::Trial>& result) {
+  if (result.outcome != Outcome::converged) return true;
+  if (solver.sound() && former.holds_all(system, solver, result)) return true;
   result.outcome = Outcome::not_converged;
   return false;
 }
@@ -381,7 +382,7 @@ template <System S>
     if (result.total.size() == 0) result.total.setZero(du.size());
     result.total += searched.step * du;
     const bool last = detail::conclude(judge, du, searched.step, energy_before, result, former);
-    const bool ended = last && detail::is_sound(solver, result);
+    const bool ended = last && detail::is_sound(system, solver, former, result);
     if (known && !ended) system.evaluate(committed, result.trial, time, true, result.evaluation);
     if (peeling.turns(system, committed, time, ended, result))
       judge.begin_again();
