@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <cstdint>
+#include <vector>
 
 #include "osculate/la/nearby.hpp"
 #include "osculate/solve/iteration.hpp"
@@ -15,7 +16,7 @@ namespace osculate::solve::detail {
 /// increment ends before that (`of_other_states`). Not where the energy alone says when iterations
 /// end.
 ///
-/// Formula    |R + K du| <= a tenth of the residual that ends the iterations, and 1e-4 |R|: where
+/// Formula    |R + K du| <= a tenth of the residual that ends the iterations, and 1e-6 |R|: where
 ///            the rest of the way is linear it is the last correction, as by factors of its own;
 ///            1e-6 |R| where states have changed
 /// Decision   docs/decisions/059-former-factors.md, 091-noise-instead-of-factors.md
@@ -63,16 +64,17 @@ class FormerFactors {
     const bool changed = states != states_, settled = states == last_;
     moved_ = !first_ && !settled;
     last_ = states;
-    constexpr double least = 1e-9, most = 1e-4;
+    constexpr double least = 1e-9;
     constexpr int tries = 2;
     if (affordable_ < 1) return false;
     if (changed && (failures_ >= tries || wanted_ <= 0)) return false;
+    if (!fresh_ && settled && !gains(result)) return false;
     // Never at rest; or pivots have to be counted.
     if (changed &&
         (settled ? system.symmetry() != la::Symmetry::unsymmetric : wanted(result) >= share))
       return false;
     const bool moving = changed && !settled;
-    const double tolerance = moving ? on_the_way : std::clamp(wanted(result), least, most);
+    const double tolerance = moving ? most_left : std::clamp(wanted(result), least, most_left);
     la::NearbySolutions by(system.matrix(), system.symmetry(), solver);
     du = -residual;
     fresh_ = !(moving || resists_all(by)) || !by.solve({affordable_, tolerance}, du).solved;
@@ -110,13 +112,20 @@ class FormerFactors {
     tried_ = last_;
     return true;
   }
+  /// Whether the last correction has left no more than half of the residual: else its digits may
+  /// not do.
+  template <class Trial>
+  static bool gains(const NewtonResult<Trial>& result) {
+    const std::vector<IterationRecord>& i = result.iterations;
+    return i.size() < 2 || i.back().residual < 0.5 * i[i.size() - 2].residual;
+  }
   /// To be left of the residual where it is the last correction.
   template <class Trial>
   [[nodiscard]] double wanted(const NewtonResult<Trial>& result) const {
     const double now = result.iterations.empty() ? 1.0 : result.iterations.back().residual;
     return share * wanted_ / now;
   }
-  static constexpr double share = 0.1, on_the_way = 1e-6;
+  static constexpr double share = 0.1, most_left = 1e-6;
   double wanted_;
   int affordable_ = 0;                   ///< iterations; none without factors
   std::uint64_t states_ = 0, last_ = 0;  ///< of the factors, and of the last correction
