@@ -1,27 +1,20 @@
 // Opens a report in headless Chromium and fails on any console message or missing part.
 //
-// node smoke.mjs [REPORT.html] [--shot FILE.png] [--size 1280x2400]; without REPORT, examples are made.
-import { spawnSync } from 'node:child_process';
+// node smoke.mjs [REPORT.html] [--shot FILE.png]; without REPORT, examples are made.
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
+import { setTimeout as pause } from 'node:timers/promises';
+import { openBrowser, until } from './browser.mjs';
 import { example, page } from './example.mjs';
 
-const flags = ['--headless', '--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run',
-  '--disable-background-networking', '--disable-component-update', '--disable-sync',
-  '--enable-logging=stderr', '--hide-scrollbars', '--virtual-time-budget=4000'];
-
-function chromium(extra, dir) {
-  return spawnSync(process.env.CHROMIUM ?? 'chromium', [...flags, `--user-data-dir=${join(dir, 'profile')}`, ...extra],
-    { encoding: 'utf8', maxBuffer: 1 << 28, timeout: 120000 });
-}
-
 /** Problems of one page: console messages and missing parts. */
-function problems(file, dir, wanted) {
-  const run = chromium(['--dump-dom', `file://${resolve(file)}`], dir);
-  if (run.error) return [run.error.message];
-  const said = run.stderr.split('\n').filter((line) => line.includes(':CONSOLE'));
-  const dom = run.stdout.replace(/<script[\s\S]*?<\/script>/g, '');
+async function problems(browser, said, file, wanted) {
+  said.length = 0;
+  await browser.send('Page.navigate', { url: `file://${resolve(file)}` });
+  await until(file, () => browser.evaluate("document.readyState === 'complete' && document.querySelector('h1') !== null"), Boolean);
+  await pause(500); // pictures are drawn in frames to come
+  const dom = await browser.evaluate(`document.documentElement.outerHTML.replace(/<script[\\s\\S]*?<\\/script>/g, '')`);
   return [...said, ...wanted.filter((part) => !dom.includes(part)).map((part) => `missing: ${part}`)];
 }
 
@@ -110,14 +103,18 @@ if (!given) {
       : ['<h1>', 'id="body"', ...(name === 'space' ? ['id="diagnosis"', 'turning about', 'class="bodies"', 'nodes of top'] : ['id="energy"', 'lost numerically'])]]);
   }
 }
+const said = [];
+const browser = await openBrowser(dir, said);
 for (const [file, parts] of pages) {
-  const found = problems(file, dir, parts);
+  const found = await problems(browser, said, file, parts);
   console.log(`${file}: ${found.length ? found.join('\n  ') : 'no errors'}`);
   failed ||= found.length > 0;
   if (argument('--shot')) {
-    chromium([`--screenshot=${resolve(argument('--shot'))}`,
-      `--window-size=${(argument('--size') ?? '1280x2400').replace('x', ',')}`, `file://${resolve(file)}`], dir);
+    const { data } = await browser.send('Page.captureScreenshot', { captureBeyondViewport: true });
+    writeFileSync(resolve(argument('--shot')), Buffer.from(data, 'base64'));
   }
 }
-rmSync(dir, { recursive: true, force: true });
+browser.process.kill('SIGKILL');
+await pause(300);
+rmSync(dir, { recursive: true, force: true, maxRetries: 5, retryDelay: 200 });
 process.exit(failed ? 1 : 0);

@@ -5,14 +5,16 @@
 import { spawn } from 'node:child_process';
 import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
-import { join } from 'node:path';
+import { join, resolve } from 'node:path';
 import { setTimeout as pause } from 'node:timers/promises';
+import { judge, openBrowser, until } from './browser.mjs';
 
-const [program] = process.argv.slice(2);
+const program = resolve(process.argv[2]);
 const shot = process.argv.includes('--shot') ? process.argv[process.argv.indexOf('--shot') + 1] : null;
 const dir = mkdtempSync(join(tmpdir(), 'osculate-live-'));
 const children = [];
 const problems = [];
+const { equal } = judge(problems);
 
 const model = `osculate: 1
 title: watched block
@@ -32,56 +34,6 @@ function start(command, args, options = {}) {
   children.push(child);
   return child;
 }
-
-/** Chromium over its pipe: {send(method, params), evaluate(expression)}. */
-async function browser() {
-  const child = start(process.env.CHROMIUM ?? 'chromium', ['--headless=new', '--no-sandbox', '--disable-gpu', '--no-first-run',
-    '--disable-background-networking', '--disable-component-update', '--remote-debugging-pipe',
-    `--user-data-dir=${join(dir, 'profile')}`, '--window-size=1200,1600', 'about:blank'],
-  { stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe'] });
-  const waiting = new Map();
-  let [number, rest, session] = [0, '', undefined];
-  child.stdio[4].on('data', (bytes) => {
-    const parts = (rest + bytes).split('\0');
-    rest = parts.pop();
-    for (const part of parts) {
-      const message = JSON.parse(part);
-      if (message.id) waiting.get(message.id)?.(message);
-      if (message.method === 'Runtime.consoleAPICalled') problems.push(`console: ${JSON.stringify(message.params.args)}`);
-      if (message.method === 'Runtime.exceptionThrown') problems.push(JSON.stringify(message.params.exceptionDetails));
-      if (message.method === 'Log.entryAdded') problems.push(`log: ${message.params.entry.text} ${message.params.entry.url ?? ''}`);
-    }
-  });
-  const send = (method, params = {}) => new Promise((resolve, reject) => {
-    waiting.set(++number, ({ result, error }) => (error ? reject(new Error(`${method}: ${error.message}`)) : resolve(result)));
-    child.stdio[3].write(`${JSON.stringify({ id: number, method, params, sessionId: session })}\0`);
-  });
-  const { targetInfos } = await send('Target.getTargets');
-  ({ sessionId: session } = await send('Target.attachToTarget',
-    { targetId: targetInfos.find((t) => t.type === 'page').targetId, flatten: true }));
-  for (const domain of ['Runtime', 'Log', 'Page']) await send(`${domain}.enable`);
-  const evaluate = async (expression) => {
-    const { result, exceptionDetails } = await send('Runtime.evaluate', { expression, returnByValue: true, awaitPromise: true });
-    if (exceptionDetails) throw new Error(JSON.stringify(exceptionDetails));
-    return result.value;
-  };
-  return { send, evaluate };
-}
-
-/** Waits until `make()` is what is wanted. */
-async function until(name, make, wanted, seconds = 30) {
-  let found;
-  for (let i = 0; i < 10 * seconds; ++i) {
-    found = await make();
-    if (wanted(found)) return found;
-    await pause(100);
-  }
-  throw new Error(`${name}: ${JSON.stringify(found)}`);
-}
-
-const equal = (name, found, wanted) => {
-  if (JSON.stringify(found) !== JSON.stringify(wanted)) problems.push(`${name}: ${JSON.stringify(found)}, wanted ${JSON.stringify(wanted)}`);
-};
 
 async function picture(page, name) {
   if (!shot) return;
@@ -111,7 +63,8 @@ async function main() {
   const server = start(program, ['view', 'm.results'], { stdio: ['ignore', 'pipe', 'inherit'] });
   const url = String(await new Promise((resolve) => { server.stdout.once('data', resolve); })).trim();
   const ask = async () => (await fetch(`${url}state.json`)).json();
-  const page = await browser();
+  const page = await openBrowser(dir, problems);
+  children.push(page.process);
   await page.send('Page.navigate', { url });
   await until('plot', () => page.evaluate(`document.querySelectorAll('#live canvas').length`), (n) => n === 1);
 
@@ -171,7 +124,7 @@ async function main() {
   run.kill('SIGCONT');
   await until('done', () => page.evaluate(text('.badge')), (t) => t === 'done', 120);
   const summary = JSON.parse(readFileSync(join(dir, 'm.results/summary.json'), 'utf8'));
-  equal('done: iterations', await page.evaluate(tile('iterations').replace('firstChild', 'firstChild')),
+  equal('done: iterations', await page.evaluate(tile('iterations')),
     String(summary.total.iterations).replace(/\B(?=(\d{3})+$)/g, '\u202f'));
   equal('done: live', await page.evaluate(`document.querySelector('#live').hidden`), true);
   await picture(page, 'done');
