@@ -18,6 +18,8 @@ void add_shapes(py::module_& m);
 void add_closest_points(py::module_& m);
 void add_contact(py::module_& m);
 void add_contact_point(py::module_& m);
+void add_element(py::module_& m);
+void add_model_parts(py::module_& m);
 
 /// A dictionary as the reader of model files takes it: with its keys and no lines. Mappings, lists,
 /// tuples, NumPy arrays, numbers, texts, truth values, None and paths; a text that begins with `=`

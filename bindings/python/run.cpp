@@ -4,11 +4,16 @@
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <chrono>
 #include <optional>
 
 #include "convert.hpp"
+#include "data_sets.hpp"
+#include "osculate/api/compare.hpp"
+#include "osculate/api/tangent_check.hpp"
 #include "osculate/cell/cell_type.hpp"
+#include "osculate/result/result_folder.hpp"
 
 namespace osculate::python {
 namespace {
@@ -24,27 +29,6 @@ py::dict fields_of(std::vector<io::Field>&& fields) {
   py::dict out;
   for (io::Field& field : fields) out[py::str(field.name)] = field_array(std::move(field));
   return out;
-}
-
-/// As the files of results have it: connectivity in VTK's order, ends of the cells, their types.
-py::tuple data_set(result::DataSet&& set) {
-  std::vector<std::int64_t> connectivity, offsets;
-  std::vector<std::uint8_t> types;
-  for (const mesh::Block& block : set.cells) {
-    const std::span<const std::int8_t> order = cell::vtk_nodes(block.type);
-    for (Index c = 0; c < block.size(); ++c) {
-      for (const std::int8_t k : order) connectivity.push_back(block.cell(c)[k]);
-      offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
-      types.push_back(static_cast<std::uint8_t>(cell::info(block.type).vtk_type));
-    }
-  }
-  std::vector<double> points;
-  for (const Vec3& x : set.points) points.insert(points.end(), {x.x(), x.y(), x.z()});
-  const auto count = static_cast<py::ssize_t>(set.points.size());
-  return py::make_tuple(set.part, array_of(std::move(points), {count, 3}),
-                        array_of(std::move(connectivity)), array_of(std::move(offsets)),
-                        array_of(std::move(types)), fields_of(std::move(set.point_fields)),
-                        fields_of(std::move(set.cell_fields)));
 }
 
 /// What Python hears of a run while it goes on. The first exception of a callback, and Ctrl-C, end
@@ -191,11 +175,62 @@ py::tuple check(const std::string& model, const py::object& document,
   return py::make_tuple(report.text, report.json);
 }
 
+/// Text and JSON of `osculate tangent`, and whether every part of the tangent is right.
+py::tuple tangent(const std::string& model, const py::object& document,
+                  const std::vector<std::pair<std::string, std::string>>& settings,
+                  const std::string& folder, int state, int threads) {
+  const std::optional<deck::SourceNode> source = document_of(document, model);
+  api::TangentReport report;
+  {
+    const py::gil_scoped_release unlocked;
+    report = api::check_tangent(model, threads, state, result::result_folder(model, folder),
+                                settings_of(settings), source ? &*source : nullptr);
+  }
+  const bool passed =
+      std::ranges::all_of(report.rows, [](const api::TangentRow& row) { return row.passed(); });
+  return py::make_tuple(api::to_text(report), api::to_json(report), passed);
+}
+
+/// What `osculate compare` says: text, whether one lacks something, the quantities, increments.
+py::tuple compare(const std::string& a, const std::string& b) {
+  api::Comparison found;
+  {
+    const py::gil_scoped_release unlocked;
+    found = api::compare(a, b);
+  }
+  py::list quantities;
+  for (const api::QuantityDifference& q : found.quantities)
+    quantities.append(py::make_tuple(q.quantity, q.largest, q.scale, q.relative(), q.time));
+  return py::make_tuple(found.text(), found.lacks, found.largest_relative(), quantities);
+}
+
 }  // namespace
+
+py::tuple data_set(result::DataSet&& set) {
+  std::vector<std::int64_t> connectivity, offsets;
+  std::vector<std::uint8_t> types;
+  for (const mesh::Block& block : set.cells) {
+    const std::span<const std::int8_t> order = cell::vtk_nodes(block.type);
+    for (Index c = 0; c < block.size(); ++c) {
+      for (const std::int8_t k : order) connectivity.push_back(block.cell(c)[k]);
+      offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
+      types.push_back(static_cast<std::uint8_t>(cell::info(block.type).vtk_type));
+    }
+  }
+  std::vector<double> points;
+  for (const Vec3& x : set.points) points.insert(points.end(), {x.x(), x.y(), x.z()});
+  const auto count = static_cast<py::ssize_t>(set.points.size());
+  return py::make_tuple(set.part, array_of(std::move(points), {count, 3}),
+                        array_of(std::move(connectivity)), array_of(std::move(offsets)),
+                        array_of(std::move(types)), fields_of(std::move(set.point_fields)),
+                        fields_of(std::move(set.cell_fields)));
+}
 
 void add_run(py::module_& m) {
   m.def("run", run);
   m.def("check", check);
+  m.def("tangent", tangent);
+  m.def("compare", compare);
 }
 
 }  // namespace osculate::python

@@ -98,10 +98,36 @@ class Result:
     increments: list[Increment]
     def __init__(self, folder: Path) -> None: ...
     def fields(self, step: str | None = None) -> Parts: ...
+    def view(self, *, height: int = 640) -> View: ...
     def plot_history(self, *columns: str, x: str = "time", file: Path | None = None, ax: Any = None) -> Any: ...
 
 def check(model: Path | Mapping[str, Any], *, mesh: Any = None, base: Path | None = None,
           parameters: Mapping[str, Any] | None = None) -> dict[str, Any]: ...
+@dataclass(frozen=True)
+class TangentCheck:
+    passed: bool
+    rows: list[dict[str, Any]]
+    text: str
+
+def tangent(model: Path | Mapping[str, Any], folder: Path | None = None, *, mesh: Any = None, base: Path | None = None,
+            parameters: Mapping[str, Any] | None = None, state: int = 0, threads: int = 1) -> TangentCheck: ...
+
+@dataclass(frozen=True)
+class Comparison:
+    quantities: dict[str, tuple[float, float, float, float]]
+    largest: float
+    lacks: bool
+    text: str
+
+def compare(a: Result | Path, b: Result | Path) -> Comparison: ...
+def plot_model(model: Path | Mapping[str, Any], *, mesh: Any = None, base: Path | None = None,
+               parameters: Mapping[str, Any] | None = None, file: Path | None = None, ax: Any = None) -> Any: ...
+
+class View:
+    height: int
+    page: str
+    def __init__(self, path: Path, height: int = 640) -> None: ...
+
 def run(model: Path | Mapping[str, Any], folder: Path | None = None, *, mesh: Any = None, base: Path | None = None,
         parameters: Mapping[str, Any] | None = None, until: str | None = None, threads: int = 1, restart: bool = False,
         max_iterations: int = 0, max_minutes: float = 0.0, on_increment: Callable[[State], Any] | None = None,
@@ -341,6 +367,45 @@ class ContactPoint:
     def at(self, coordinates: ArrayLike, before: History | None = None, *, duration: float = 0.0) -> PointParts: ...
     def derivative(self, name: str, coordinates: ArrayLike, before: History | None = None, *, step: float = 1e-6,
                    duration: float = 0.0) -> Floats: ...
+
+@dataclass(frozen=True)
+class ElementParts:
+    force: Floats
+    tangent: Floats
+    stress: Floats
+    strain: Floats
+    points: Floats
+    volume: Floats
+    before: Floats | None
+    after: Floats
+
+class Element:
+    coordinates: Floats
+    def __init__(self, type: str, coordinates: ArrayLike, material: Law, *, base: Path | None = None, **section: Any) -> None: ...
+    @property
+    def finite(self) -> bool: ...
+    @property
+    def state(self) -> list[str]: ...
+    def at(self, displacement: ArrayLike, before: Floats | None = None, *, duration: float = 1.0) -> ElementParts: ...
+    def derivative_check(self, displacement: ArrayLike, before: Floats | None = None, *, duration: float = 1.0,
+                         step: float = 1e-4) -> DerivativeCheck: ...
+
+@dataclass(frozen=True)
+class MaterialAnswer:
+    stress: Floats
+    tangent: Floats
+    after: Floats
+
+class MaterialPoint:
+    def __init__(self, material: Law, *, base: Path | None = None, **section: Any) -> None: ...
+    @property
+    def finite(self) -> bool: ...
+    @property
+    def state(self) -> list[str]: ...
+    def at(self, strain: ArrayLike, before: Floats | None = None, *, duration: float = 1.0) -> MaterialAnswer: ...
+    def path(self, strains: ArrayLike, *, duration: float = 1.0) -> Floats: ...
+    def derivative_check(self, strain: ArrayLike, before: Floats | None = None, *, duration: float = 1.0,
+                         step: float = 1e-4) -> DerivativeCheck: ...
 
 def normal_law(pressure: Callable[[float], tuple[float, float]], energy: Callable[[float], float] | None = None, *,
                onset: float = 0.0) -> Law: ...

@@ -102,6 +102,61 @@ def draw(parts, field=None, scale=1.0, file=None, ax=None):
     return ax
 
 
+def draw_model(parts, slaves, sections, file=None, ax=None):
+    """What `plot_model` does. slaves: {pair: corners of its facets}."""
+    import matplotlib
+    from matplotlib.collections import LineCollection, PolyCollection
+
+    bodies = parts["bodies"]
+    flat = not np.ptp(bodies.points[:, 2]) > 0
+    paper, depth = _on_paper(bodies.points, flat)
+    if ax is None:
+        import matplotlib.pyplot as plt
+        ax = plt.subplots(figsize=(6.4, 4.0))[1]
+    palette = matplotlib.colormaps["Pastel1"].colors
+    pairs = matplotlib.colormaps["tab10"].colors
+    first = 0
+    painted = []  # (depth, corners, colour)
+    for kind, nodes in bodies.cells:
+        number = bodies["Section"][first:first + len(nodes)].astype(int) - 1
+        first += len(nodes)
+        for section in np.unique(number):
+            painted += [(depth[face].mean(), face, palette[section % len(palette)])
+                        for face in outer_faces([(kind, nodes[number == section])])]
+    if not flat:
+        light = _light(bodies.points, [face for _, face, _ in painted])
+        painted = [(d, face, tuple(np.multiply(colour, shade))) for (d, face, colour), shade in zip(painted, light)]
+        for k, facets in enumerate(slaves.values()):  # on top of what they are part of
+            painted += [(depth[face].mean() + 1e-9, face, pairs[k % len(pairs)]) for face in facets]
+    painted.sort(key=lambda entry: entry[0])
+    ax.add_collection(PolyCollection([paper[face] for _, face, _ in painted], facecolors=[c for *_, c in painted],
+                                     edgecolors=(0, 0, 0, 0.35), linewidths=0.3))
+    if "rigid bodies" in parts:
+        rigid = parts["rigid bodies"]
+        where, _ = _on_paper(rigid.points, flat)
+        edges = _lines(rigid.cells) or [[face[k], face[k - 1]] for face in outer_faces(rigid.cells) for k in range(len(face))]
+        ax.add_collection(LineCollection([where[ends] for ends in edges], colors="firebrick", linewidths=1.2 if flat else 0.4))
+    if flat:
+        for k, (name, facets) in enumerate(slaves.items()):
+            ax.add_collection(LineCollection([paper[ends] for ends in facets], colors=[pairs[k % len(pairs)]], linewidths=2.5))
+    held = np.flatnonzero(bodies["held"].any(axis=1))
+    ax.plot(*paper[held].T, "k^", markersize=3, label="prescribed")
+    for k, name in enumerate(slaves):
+        ax.plot([], [], color=pairs[k % len(pairs)], linewidth=2.5, label=f"slave of {name}")
+    for k, name in enumerate(sections):
+        ax.plot([], [], "s", color=palette[k % len(palette)], label=name)
+    low, high = paper.min(axis=0), paper.max(axis=0)
+    margin = 0.06 * max(high - low)
+    ax.set_xlim(low[0] - margin, high[0] + margin)
+    ax.set_ylim(low[1] - margin, high[1] + margin)
+    ax.set_aspect("equal")
+    ax.set_axis_off()
+    ax.legend(loc="upper left", bbox_to_anchor=(1, 1), fontsize="small", frameon=False)
+    if file is not None:
+        ax.figure.savefig(file, dpi=110, bbox_inches="tight")
+    return ax
+
+
 def png(parts):
     """The picture as a notebook shows it; None without matplotlib, and of bodies that would take seconds."""
     most_cells = 50_000

@@ -16,6 +16,7 @@ from . import _core, _laws, _plot
 from ._data import DataSet, Parts, read_collection, read_vtu
 from ._errors import AnalysisFailed, InputError, Interrupted
 from ._mesh import write_gmsh
+from ._view import View
 
 _QUANTITIES = {
     "length": ("ux", "uy", "uz", "max_penetration", "slip"),
@@ -228,6 +229,10 @@ class Result:
             ax.figure.savefig(file)
         return ax
 
+    def view(self, *, height=640):
+        """The report of the run (report.html) as a notebook shows it, with all that can be clicked in it: View."""
+        return View(os.path.join(self.folder, "report.html"), height)
+
     def _repr_png_(self):
         drawn = [increment for increment in self.increments if increment.has_fields]
         return _plot.png(drawn[-1].parts) if drawn else None
@@ -325,22 +330,6 @@ def _model(model, mesh, base, mesh_file):
             raise TypeError("the mesh is given twice: as an argument, and by the key `mesh` of the model")
         content["mesh"] = os.path.abspath(mesh_file(mesh))
     return os.path.join(os.fspath(base) if base is not None else "", "model"), content
-
-
-def check(model, *, mesh=None, base=None, parameters=None):
-    """What `osculate check` says of a model, as a dictionary; its key `text` has it for a reader.
-
-    Arguments as of `run`. Errors: InputError.
-    """
-    with tempfile.TemporaryDirectory(prefix="osculate-") as temporary:
-        def mesh_file(mesh):
-            path = os.path.join(temporary, "mesh.msh")
-            write_gmsh(mesh, path)
-            return path
-
-        path, content = _model(model, mesh, base, mesh_file)
-        text, facts = _core.check(path, content, _settings(parameters))
-    return {**json.loads(facts), "text": text}
 
 
 def run(model, folder=None, *, mesh=None, base=None, parameters=None, until=None, threads=1, restart=False,

@@ -344,8 +344,10 @@ TangentReport check_tangent(const std::string& path, int threads) {
 }
 
 TangentReport check_tangent(const std::string& path, int threads, int state,
-                            const std::string& folder, std::span<const deck::Setting> settings) {
-  const deck::Description description = deck::read_model(path, settings);
+                            const std::string& folder, std::span<const deck::Setting> settings,
+                            const deck::SourceNode* document) {
+  const deck::Description description =
+      document ? deck::parse_model(*document, path, settings) : deck::read_model(path, settings);
   deck::AnyBuilt any = deck::build_any(description, deck::load_mesh(description));
   if (state <= 0)
     return std::visit([&](const auto& built) { return check_tangent(built.model, threads); }, any);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "osculate/deck/parameters.hpp"
+#include "osculate/deck/source_tree.hpp"
 #include "osculate/model/model.hpp"
 #include "osculate/result/increment_text.hpp"
 
@@ -36,10 +37,12 @@ struct TangentReport {
 /// of its last iteration, all points moved by 1e-6 of a facet off the borders. The increment is
 /// computed again from the last checkpoint in `folder` that lies before it, or from the beginning.
 ///
+/// Input      document: what stands in place of the file's content (RunOptions)
 /// Errors     core::InputError also if the analysis has not so many converged increments
 [[nodiscard]] TangentReport check_tangent(const std::string& model, int threads, int state,
                                           const std::string& folder,
-                                          std::span<const deck::Setting> settings = {});
+                                          std::span<const deck::Setting> settings = {},
+                                          const deck::SourceNode* document = nullptr);
 [[nodiscard]] TangentReport check_tangent(const model::Model& model, int threads);
 [[nodiscard]] TangentReport check_tangent(const model::Model3& model, int threads);
 
