@@ -46,6 +46,14 @@ struct SchurFactors::Impl {
     open = analysed = factored = false;
   }
   bool begin();
+  [[nodiscard]] bool is_of(Index size, Symmetry kind, std::span<const Index> few) const {
+    return analysed && n == size && symmetry == kind && std::ranges::equal(c, few);
+  }
+  [[nodiscard]] bool has_values_of(const SparseMatrix& k) const {
+    std::size_t e = 0;
+    while (e < values.size() && values[e] == k.value[entries[e]]) ++e;
+    return e == values.size();
+  }
   /// Whether the triplets are others than before.
   bool set_pattern(const SparseMatrix& k);
   void set_order();
@@ -126,11 +134,15 @@ void SchurFactors::Impl::point_to_schur() {
 SchurFactors::SchurFactors(int blas_threads) : impl_(std::make_unique<Impl>(blas_threads)) {}
 SchurFactors::~SchurFactors() = default;
 
+bool SchurFactors::is_of(const SparseMatrix& k, Symmetry symmetry, std::span<const Index> c) const {
+  return impl_->is_of(k.n, symmetry, c) && impl_->row_start == k.row_start &&
+         impl_->column == k.column;
+}
+
 bool SchurFactors::analyse(const SparseMatrix& k, Symmetry symmetry, std::span<const Index> c) {
   Impl& s = *impl_;
-  const bool same =
-      s.analysed && s.n == k.n && s.symmetry == symmetry && std::ranges::equal(s.c, c);
-  if (same && s.row_start == k.row_start && s.column == k.column) return true;
+  if (is_of(k, symmetry, c)) return true;
+  const bool same = s.is_of(k.n, symmetry, c);
   s.row_start = k.row_start;
   s.column = k.column;
   s.symmetry = symmetry;
@@ -195,11 +207,10 @@ const Eigen::MatrixXd& SchurFactors::complement() const { return impl_->schur; }
 bool SchurFactors::factor(const SparseMatrix& k) {
   Impl& s = *impl_;
   if (!s.analysed) return false;
-  std::vector<double> values(s.entries.size());
-  for (std::size_t e = 0; e < values.size(); ++e) values[e] = k.value[s.entries[e]];
-  if (s.factored && values == s.values) return true;
+  if (s.factored && s.has_values_of(k)) return true;
   s.factored = false;
-  s.values = std::move(values);
+  s.values.resize(s.entries.size());
+  for (std::size_t e = 0; e < s.values.size(); ++e) s.values[e] = k.value[s.entries[e]];
   if (!std::ranges::all_of(s.values, [](double v) { return std::isfinite(v); })) return false;
   const LibraryCall guard(s.blas_threads);
   s.id.a = s.values.data();

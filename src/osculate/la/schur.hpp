@@ -27,6 +27,9 @@ class SchurFactors {
   /// Analyses K without C x C where it has another pattern than before. False: it cannot be.
   bool analyse(const SparseMatrix& k, Symmetry symmetry, std::span<const Index> c);
   [[nodiscard]] bool analysed() const;
+  /// Whether that was of this pattern.
+  [[nodiscard]] bool is_of(const SparseMatrix& k, Symmetry symmetry,
+                           std::span<const Index> c) const;
   /// Operations of a factorisation, by the analysis.
   [[nodiscard]] double operations() const;
   /// Factors where the values are others than before. False: singular, or no room.

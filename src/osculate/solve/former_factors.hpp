@@ -9,16 +9,16 @@
 namespace osculate::solve::detail {
 
 /// The factors of a former iteration of the same increment, which solve for further corrections.
-/// Where points have changed their states since, a millionth of what is out of balance may be
-/// left: the next iteration finds other states anyway. Once two iterations have the same states,
+/// Where points have changed their states since, a hundred-millionth of what is out of balance may
+/// be left: the next iteration finds other states anyway. Once two iterations have the same states,
 /// something may have come loose that was held: a solution for noise says whether all is held in
 /// unsymmetric tangents; those of symmetric kinds are factored, as their pivots are counted. No
 /// increment ends before that (`of_other_states`). Not where the energy alone says when iterations
 /// end.
 ///
-/// Formula    |R + K du| <= a tenth of the residual that ends the iterations, and 1e-6 |R|: where
+/// Formula    |R + K du| <= a tenth of the residual that ends the iterations, and 1e-8 |R|: where
 ///            the rest of the way is linear it is the last correction, as by factors of its own;
-///            1e-6 |R| where states have changed
+///            1e-8 |R| where states have changed
 /// Decision   docs/decisions/059-former-factors.md, 091-noise-instead-of-factors.md
 /// Tested by  tests/unit/solve/test_former_factors.cpp
 class FormerFactors {
@@ -125,7 +125,7 @@ class FormerFactors {
     const double now = result.iterations.empty() ? 1.0 : result.iterations.back().residual;
     return share * wanted_ / now;
   }
-  static constexpr double share = 0.1, most_left = 1e-6;
+  static constexpr double share = 0.1, most_left = 1e-8;
   double wanted_;
   int affordable_ = 0;                   ///< iterations; none without factors
   std::uint64_t states_ = 0, last_ = 0;  ///< of the factors, and of the last correction
