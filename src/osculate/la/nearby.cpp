@@ -102,7 +102,8 @@ FactorReport factor_symmetric_part(const SparseMatrix& k, std::uint64_t pattern_
 int affordable_iterations(const FactorReport& factors, const SparseMatrix& k) {
   constexpr double per_operation = 1.0 / 16e9, per_factor_entry = 9e-9, per_entry = 25e-9;
   constexpr double per_unknown = 5e-8, near = 0.45e-9, far = 1.2e-9, cached = 1.5e6, most = 40;
-  if (!(factors.operations > 0)) return 0;
+  constexpr std::size_t fewest = 10'000;
+  if (!(factors.operations > 0) || k.value.size() < fewest) return 0;
   const auto in_factors = static_cast<double>(factors.factor_entries),
              in_matrix = static_cast<double>(k.value.size());
   const double entries = in_factors + in_matrix;
