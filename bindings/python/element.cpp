@@ -9,6 +9,7 @@
 #include "osculate/deck/build.hpp"
 #include "osculate/deck/parse.hpp"
 #include "osculate/errors.hpp"
+#include "osculate/model/bulk.hpp"
 #include "osculate/solid/element.hpp"
 
 namespace osculate::python {
@@ -72,7 +73,8 @@ OneCell<Dim> the_cell(const deck::BasicBuilt<Dim>& built) {
   const mesh::CellRef ref = section.cells.at(0);
   const mesh::Block& block = built.model.mesh.blocks[static_cast<std::size_t>(ref.block)];
   const int nodes = cell::info(block.type).nodes;
-  OneCell<Dim> out{section.section, block.type, solid::Coordinates<Dim>(nodes, Dim)};
+  OneCell<Dim> out{model::section_on(section, block.type), block.type,
+                   solid::Coordinates<Dim>(nodes, Dim)};
   for (int k = 0; k < nodes; ++k)
     out.reference.row(k) =
         built.model.reference[static_cast<std::size_t>(block.cell(ref.cell)[k])].transpose();

@@ -33,6 +33,34 @@ class Elements(unittest.TestCase):
                 self.assertFalse(check.exact)
         self.assertTrue(Element("hex8", CUBE, METAL).derivative_check(random(8, 3, 0.05)).passed)
 
+    def test_cells_of_all_shapes_have_their_own_size(self):
+        def with_middles(corners, edges):
+            x = np.array(corners, dtype=float)
+            return np.vstack([x, [(x[a] + x[b]) / 2 for a, b in edges]])
+
+        triangle, tetrahedron = [[0, 0], [1, 0.1], [0.2, 1]], [[0, 0, 0], [1, 0, 0.1], [0, 1, 0], [0.1, 0, 1]]
+        wedge = [[*x, z] for z in (0, 1) for x in triangle]
+        around = [(0, 1), (1, 2), (2, 0)]
+        cells = {"tri3": triangle, "tri6": with_middles(triangle, around), "quad4": QUAD,
+                 "quad8": with_middles(QUAD, [(0, 1), (1, 2), (2, 3), (3, 0)]), "tet4": tetrahedron,
+                 "tet10": with_middles(tetrahedron, [*around, (0, 3), (2, 3), (1, 3)]), "wedge6": wedge, "hex8": CUBE}
+        for material in ({"linear_elastic": {"E": 10, "nu": 0.3}}, {"neo_hooke": {"E": 10, "nu": 0.3}}):
+            for name, x in cells.items():
+                with self.subTest(cell=name, material=material):
+                    cell, x = Element(name, x, material), np.array(x, dtype=float)
+                    u = random(*x.shape, 0.01)
+                    now = cell.at(u)
+                    self.assertEqual(now.force.size, x.size)
+                    self.assertEqual(now.tangent.shape, (x.size, x.size))
+                    self.assertTrue(cell.derivative_check(u).passed)
+                    for along in np.eye(x.shape[1]):  # forces balance, a translation is free
+                        self.assertAlmostEqual(now.force.reshape(x.shape).sum(axis=0) @ along, 0, 12)
+                        np.testing.assert_allclose(now.tangent @ np.tile(along, len(x)), 0, atol=1e-11)
+
+    def test_nodes_in_another_order_are_refused(self):
+        with self.assertRaisesRegex(osculate.InputError, "another order"):
+            Element("tetra10", np.eye(10, 3), {"linear_elastic": {"E": 10, "nu": 0.3}})
+
     def test_a_wrong_tangent_is_found(self):
         stiff = 1.001e3 * np.eye(6)
         wrong = MaterialPoint(osculate.material(lambda strain, change, state, duration:

@@ -57,6 +57,8 @@ def _one_cell(type, coordinates, material, section, base):
     ours, nodes = _block(type, np.arange(len(points))[None, :], False, len(points))
     if _CELLS[ours][0] != points.shape[1]:
         raise InputError(f"a cell {type} is not one of {points.shape[1]} dimensions")
+    if not np.array_equal(nodes[0], np.arange(len(points))):
+        raise InputError(f"a cell {type} has its nodes in another order: give them in Gmsh's, as {ours}")
     keys = {"element": "plane_strain" if points.shape[1] == 2 else "solid", **section}
     with tempfile.TemporaryDirectory(prefix="osculate-") as folder:
         mesh = os.path.join(folder, "mesh.msh")
@@ -101,8 +103,8 @@ def _order(value, difference, step):
 class Element:
     """A cell of a body by itself: forces, tangent, stresses and what its points remember.
 
-    type          of the cell: "quad4", "hex20", ... (docs/conventions.md), or meshio's word
-    coordinates   of its nodes, undeformed, (n, d)
+    type          of the cell: "quad4", "hex20", ... (docs/conventions.md)
+    coordinates   of its nodes in Gmsh's order, undeformed, (n, d)
     material      an entry of `materials` of model dictionaries, such as {"neo_hooke": {"E": 10, "nu": 0.3}}
     base          folder that the path of a library in it is relative to; default: the present one
     section       the keys of an entry of `sections` (`osculate doc sections`): element ("plane_strain" in the plane,

@@ -34,7 +34,8 @@ class NearbySolutions {
   /// Whether K resists all motions: noise is no force that a singular matrix balances, though the
   /// loads may be.
   ///
-  /// Formula    K x = D^1/2 noise to 1e-5, |D^1/2 x| <= 1e8 |noise|, D the diagonal
+  /// Formula    |S^-1 (S noise - K x)| <= 1e-5 |noise| , |S x| <= 1e8 |noise| , S the roots of the
+  ///            rows' largest entries, 1 for an empty row
   Nearby resists_all(int iterations);
 
  private:

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "grid.hpp"
@@ -90,8 +91,8 @@ TEST(Nearby, DoesNotLookTwiceAlongTheSame) {
             1.1e-10 * load(k.n).cwiseAbs2().norm());
 }
 
-/// The block on its left side's springs, and the same hanging on one spring more that goes: the
-/// factors are of the block that is held.
+/// The factors are of the block on its left side's springs; asked about is the block with all its
+/// nodes on soft springs, and on those of its left side or not.
 Nearby is_held(bool held, double spring) {
   MatrixBuilder before = test::grid(width, height, true), after = test::grid(width, height, held);
   for (Index i = 0; i < after.finish().n; ++i) after.add(i, i, spring);
@@ -105,6 +106,54 @@ TEST(Nearby, NoiseTellsWhatNothingHolds) {
   EXPECT_FALSE(is_held(false, 0).solved);
   EXPECT_FALSE(is_held(false, 1e-14).solved);  // a motion without a digit
   EXPECT_TRUE(is_held(false, 1e-3).solved);
+}
+
+/// A held block beside a small one of another stiffness, which is held in the factors alone or in
+/// both.
+bool tells_of_soft(double stiffness, bool held) {
+  const auto both = [&](bool small_held) {
+    MatrixBuilder big = test::grid(width, height, true), small = test::grid(3, 3, small_held);
+    const SparseMatrix a = big.finish(), b = small.finish();
+    MatrixBuilder all(a.n + b.n);
+    const auto copy = [&all](const SparseMatrix& k, Index first, double factor) {
+      for (Index i = 0; i < k.n; ++i)
+        for (Index e = k.row_start[static_cast<std::size_t>(i)];
+             e < k.row_start[static_cast<std::size_t>(i) + 1]; ++e)
+          all.add(first + i, first + k.column[static_cast<std::size_t>(e)],
+                  factor * k.value[static_cast<std::size_t>(e)]);
+    };
+    copy(a, 0, 1);
+    copy(b, a.n, stiffness);
+    return all;
+  };
+  MatrixBuilder before = both(true), after = both(held);
+  Mumps former;
+  EXPECT_EQ(former.factor(before.finish(), 1, Symmetry::unsymmetric).status, SolveStatus::ok);
+  return NearbySolutions(after.finish(), Symmetry::unsymmetric, former).resists_all(60).solved;
+}
+
+TEST(Nearby, NoiseTellsOfSoftBodiesBesideStiffOnes) {
+  for (const double stiffness : {1.0, 1e-4, 1e-6, 1e-8}) {
+    SCOPED_TRACE(stiffness);
+    EXPECT_TRUE(tells_of_soft(stiffness, true));
+    EXPECT_FALSE(tells_of_soft(stiffness, false));
+  }
+}
+
+TEST(Nearby, NoiseTellsOfUnknownsWithoutStiffness) {
+  MatrixBuilder before = block(0, 0), after = block(0, 0);
+  const Index n = before.finish().n;
+  Mumps former;
+  EXPECT_EQ(former.factor(before.finish(), 1, Symmetry::unsymmetric).status, SolveStatus::ok);
+  SparseMatrix k = after.finish();
+  for (Index i = 0; i < n; ++i)
+    for (Index e = k.row_start[static_cast<std::size_t>(i)];
+         e < k.row_start[static_cast<std::size_t>(i) + 1]; ++e)
+      if (i == 7 || k.column[static_cast<std::size_t>(e)] == 7)
+        k.value[static_cast<std::size_t>(e)] = 0;
+  EXPECT_FALSE(NearbySolutions(k, Symmetry::unsymmetric, former).resists_all(60).solved);
+  std::ranges::fill(k.value, 0.0);
+  EXPECT_FALSE(NearbySolutions(k, Symmetry::unsymmetric, former).resists_all(60).solved);
 }
 
 TEST(Nearby, RefusesWhatIsNoNumberOrHasNoFactors) {
