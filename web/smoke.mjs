@@ -116,5 +116,5 @@ for (const [file, parts] of pages) {
 }
 browser.process.kill('SIGKILL');
 await pause(300);
-rmSync(dir, { recursive: true, force: true, maxRetries: 5, retryDelay: 200 });
+rmSync(dir, { recursive: true, force: true, maxRetries: 20, retryDelay: 200 });
 process.exit(failed ? 1 : 0);

@@ -286,6 +286,6 @@ try {
 }
 page?.process.kill('SIGKILL');
 await pause(300);
-rmSync(dir, { recursive: true, force: true, maxRetries: 5, retryDelay: 200 });
+rmSync(dir, { recursive: true, force: true, maxRetries: 20, retryDelay: 200 });
 console.log([...said, ...(problems.length ? problems.slice(0, 40) : ['no errors'])].join('\n'));
 process.exit(problems.length ? 1 : 0);

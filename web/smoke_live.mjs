@@ -142,6 +142,6 @@ for (const child of children) {
   child.kill('SIGKILL');
 }
 await pause(300);
-rmSync(dir, { recursive: true, force: true, maxRetries: 5, retryDelay: 200 });
+rmSync(dir, { recursive: true, force: true, maxRetries: 20, retryDelay: 200 });
 console.log(problems.length ? problems.join('\n') : 'no errors');
 process.exit(problems.length ? 1 : 0);
