@@ -5,7 +5,7 @@ import { setTimeout as pause } from 'node:timers/promises';
 
 /** {send(method, params), evaluate(expression), click(x, y), hover(x, y), drag(from, to), key(name), process}. */
 export async function openBrowser(dir, problems) {
-  const child = spawn(process.env.CHROMIUM ?? 'chromium', ['--headless=new', '--no-sandbox', '--disable-gpu', '--no-first-run',
+  const child = spawn(process.env.CHROMIUM ?? 'chromium', ['--headless=new', '--no-sandbox', '--disable-gpu', '--disable-dev-shm-usage', '--no-first-run',
     '--disable-background-networking', '--disable-component-update', '--remote-debugging-pipe', '--hide-scrollbars',
     `--user-data-dir=${join(dir, 'profile')}`, '--window-size=1200,1600', 'about:blank'],
   { cwd: dir, stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe'] });
@@ -82,5 +82,9 @@ export function judge(problems) {
   const equal = (name, found, wanted) => {
     if (JSON.stringify(found) !== JSON.stringify(wanted)) problems.push(`${name}: ${JSON.stringify(found)}, wanted ${JSON.stringify(wanted)}`);
   };
-  return { equal, close: (name, found, wanted, digits) => equal(name, Number(found), Number(wanted.toPrecision(digits))) };
+  const close = (name, found, wanted, digits) => {
+    if (Number.isFinite(Number(found)) && Number.isFinite(wanted)) equal(name, Number(found), Number(wanted.toPrecision(digits)));
+    else problems.push(`${name}: '${found}', wanted ${wanted}`);
+  };
+  return { equal, close };
 }

@@ -61,6 +61,10 @@ class Elements(unittest.TestCase):
         with self.assertRaisesRegex(osculate.InputError, "another order"):
             Element("tetra10", np.eye(10, 3), {"linear_elastic": {"E": 10, "nu": 0.3}})
 
+    def test_a_material_is_an_entry_of_materials(self):
+        with self.assertRaisesRegex(osculate.InputError, "expected an entry of `materials`"):
+            Element("hex8", CUBE, "steel")
+
     def test_a_wrong_tangent_is_found(self):
         stiff = 1.001e3 * np.eye(6)
         wrong = MaterialPoint(osculate.material(lambda strain, change, state, duration:

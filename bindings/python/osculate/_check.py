@@ -30,7 +30,7 @@ def check(model, *, mesh=None, base=None, parameters=None):
     Arguments as of `run`. Errors: InputError.
     """
     with _asked(model, mesh, base) as (path, content):
-        text, facts = _core.check(path, content, _settings(parameters))
+        text, facts = _call(_core.check, path, content, _settings(parameters))
     return {**json.loads(facts), "text": text}
 
 
@@ -95,5 +95,5 @@ def plot_model(model, *, mesh=None, base=None, parameters=None, file=None, ax=No
     as of `run`; `file`: saved there; `ax`: drawn into these axes. Errors: InputError.
     """
     with _asked(model, mesh, base) as (path, content):
-        sets, slaves, sections = _core.model_parts(path, content, _settings(parameters))
+        sets, slaves, sections = _call(_core.model_parts, path, content, _settings(parameters))
     return _plot.draw_model(Parts([DataSet(*arrays) for arrays in sets]), slaves, sections, file, ax)

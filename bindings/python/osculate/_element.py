@@ -51,6 +51,8 @@ class MaterialAnswer:
 
 def _one_cell(type, coordinates, material, section, base):
     """A model of one cell, as the reader of model files takes it."""
+    if not hasattr(material, "items"):
+        raise InputError(f"material: expected an entry of `materials`, such as {{'neo_hooke': {{'E': 10, 'nu': 0.3}}}}, got {material!r}")
     points = np.asarray(coordinates, dtype=float)
     if points.ndim != 2 or points.shape[1] not in (2, 3):
         raise InputError(f"coordinates: expected one row of 2 or 3 numbers a node, got an array of shape {points.shape}")
@@ -138,12 +140,13 @@ class Element:
         """The tangent against central differences of the force, by the order of their error (DerivativeCheck).
         step: of the displacements, in units of the largest extent of the cell."""
         u = np.array(displacement, dtype=float).reshape(-1)
-        size = np.ptp(self.coordinates, axis=0).max()
+        return _checked(lambda v: self.at(v, before, duration=duration), "force", u,
+                        step, np.ptp(self.coordinates, axis=0).max())
 
-        def difference(h):
-            return _central(lambda v: _call(self._core.at, v, before, duration)["force"], u, h * size)
 
-        return _order(self.at(displacement, before, duration=duration).tangent, difference, step)
+def _checked(at, name, x, step, size=1.0):
+    """DerivativeCheck of the tangent of `at(x)` against differences of its `name`, with steps in units of `size`."""
+    return _order(at(x).tangent, lambda h: _central(lambda v: getattr(at(v), name), x, h * size), step)
 
 
 def _central(function, x, h):
@@ -196,8 +199,4 @@ class MaterialPoint:
         """The tangent against central differences of the stress, by the order of their error (DerivativeCheck).
         step: of the strains. The strain must not be on a border, such as where a metal begins to yield."""
         e = np.array(strain, dtype=float)
-
-        def difference(h):
-            return _central(lambda v: _call(self._core.response, v, before, duration)["stress"], e, h)
-
-        return _order(self.at(strain, before, duration=duration).tangent, difference, step)
+        return _checked(lambda v: self.at(v, before, duration=duration), "stress", e, step)

@@ -89,17 +89,22 @@ def draw(parts, field=None, scale=1.0, file=None, ax=None):
         rigid = parts["rigid bodies"]
         where, _ = _on_paper(rigid.points + scale * rigid["U"], flat)
         ax.add_collection(LineCollection([where[ends] for ends in _lines(rigid.cells)], colors="firebrick"))
+    _frame(ax, paper)
+    bar = ax.figure.colorbar(matplotlib.cm.ScalarMappable(scaled, "viridis"), ax=ax, shrink=0.7)
+    bar.set_label(name or "")
+    if file is not None:
+        ax.figure.savefig(file, dpi=110, bbox_inches="tight")
+    return ax
+
+
+def _frame(ax, paper):
+    """Axes without scales around what is drawn."""
     low, high = paper.min(axis=0), paper.max(axis=0)
     margin = 0.06 * max(high - low)
     ax.set_xlim(low[0] - margin, high[0] + margin)
     ax.set_ylim(low[1] - margin, high[1] + margin)
     ax.set_aspect("equal")
     ax.set_axis_off()
-    bar = ax.figure.colorbar(matplotlib.cm.ScalarMappable(scaled, "viridis"), ax=ax, shrink=0.7)
-    bar.set_label(name or "")
-    if file is not None:
-        ax.figure.savefig(file, dpi=110, bbox_inches="tight")
-    return ax
 
 
 def draw_model(parts, slaves, sections, file=None, ax=None):
@@ -145,12 +150,7 @@ def draw_model(parts, slaves, sections, file=None, ax=None):
         ax.plot([], [], color=pairs[k % len(pairs)], linewidth=2.5, label=f"slave of {name}")
     for k, name in enumerate(sections):
         ax.plot([], [], "s", color=palette[k % len(palette)], label=name)
-    low, high = paper.min(axis=0), paper.max(axis=0)
-    margin = 0.06 * max(high - low)
-    ax.set_xlim(low[0] - margin, high[0] + margin)
-    ax.set_ylim(low[1] - margin, high[1] + margin)
-    ax.set_aspect("equal")
-    ax.set_axis_off()
+    _frame(ax, paper)
     ax.legend(loc="upper left", bbox_to_anchor=(1, 1), fontsize="small", frameon=False)
     if file is not None:
         ax.figure.savefig(file, dpi=110, bbox_inches="tight")
