@@ -141,6 +141,23 @@ TEST(FormerFactors, EndNothingThatHasComeLoose) {
   }
 }
 
+/// Springs without inertia, whose pivots tell whether they are stable.
+struct RestingSystem : ToySystem {
+  [[nodiscard]] static la::Symmetry symmetry() { return la::Symmetry::positive_definite; }
+  [[nodiscard]] static bool at_rest() { return true; }
+};
+
+// The pivots at the end are of a tangent of the end, not of the first one.
+TEST(FormerFactors, EndNoIncrementWherePivotsTellOfStability) {
+  RestingSystem system{springs()};
+  la::Mumps mumps;
+  const auto result = newton(system, ToySystem::State{Eigen::VectorXd::Zero(size)}, 1.0, {}, mumps);
+  ASSERT_EQ(result.outcome, Outcome::converged) << result.reason;
+  ASSERT_GT(result.iterations.size(), 2U);
+  EXPECT_EQ(factorisations(result), 2);
+  EXPECT_TRUE(result.iterations.back().factored);
+}
+
 TEST(FormerFactors, OfOtherStatesDoNotServeWhereTheEnergyAloneCounts) {
   NewtonOptions by_energy;
   by_energy.residual = 0;
