@@ -13,8 +13,7 @@ namespace osculate::solve::detail {
 /// be left: the next iteration finds other states anyway. Once two iterations have the same states,
 /// something may have come loose that was held: a solution for noise says whether all is held in
 /// unsymmetric tangents; those of symmetric kinds are factored, as their pivots are counted. No
-/// increment ends before that (`of_other_states`). Not where the energy alone says when iterations
-/// end.
+/// increment ends before that (`doubtful`). Not where the energy alone says when iterations end.
 ///
 /// Formula    |R + K du| <= a tenth of the residual that ends the iterations, and 1e-8 |R|: where
 ///            the rest of the way is linear it is the last correction, as by factors of its own;
@@ -27,10 +26,6 @@ class FormerFactors {
   explicit FormerFactors(double wanted) : wanted_(wanted) {}
   /// The last correction took a factorisation.
   [[nodiscard]] bool fresh() const { return fresh_; }
-  /// The last correction came by factors of other states, and nothing has said that all is held.
-  [[nodiscard]] bool of_other_states() const {
-    return !fresh_ && last_ != states_ && last_ != tried_;
-  }
   /// Points have other states than at the last factorisation: what is there of it does not know
   /// what has come loose.
   template <class Trial>
@@ -82,19 +77,29 @@ class FormerFactors {
     return !fresh_;
   }
 
-  /// Whether an increment may end here: where nothing has said that all is held, the tangent at
-  /// hand is tried by noise, or factored. False: what is not held is for the next iteration to
-  /// find. Where pivots tell of unstable equilibria no increment ends with former factors.
+  /// Whether the tangent where the iterations would end is to be looked at: the last correction
+  /// came by former factors, and nothing has said of its states that all is held, or pivots tell of
+  /// unstable equilibria.
+  template <System S>
+  [[nodiscard]] bool doubtful(const S& system,
+                              const NewtonResult<typename S::Trial>& result) const {
+    if (fresh_) return false;
+    if constexpr (requires { system.at_rest(); })
+      if (system.symmetry() != la::Symmetry::unsymmetric && !result.evaluation.saddle &&
+          system.at_rest())
+        return true;
+    const std::uint64_t now = result.evaluation.counts.signature;
+    return now != states_ && now != tried_;
+  }
+  /// Whether an increment may end here: a doubtful tangent, which the system has at hand, is tried
+  /// by noise, or factored. False: what is not held is for the next iteration to find.
   template <System S>
   bool holds_all(S& system, la::LinearSolver& solver, NewtonResult<typename S::Trial>& result) {
-    const bool symmetric = system.symmetry() != la::Symmetry::unsymmetric;
-    bool pivots_count = false;
-    if constexpr (requires { system.at_rest(); })
-      pivots_count = symmetric && !result.evaluation.saddle && system.at_rest();
-    if (fresh_ || !(pivots_count || of_other_states())) return true;
+    if (!doubtful(system, result)) return true;
+    last_ = result.evaluation.counts.signature;
     const la::SparseMatrix& k = system.matrix();
     la::NearbySolutions by(k, system.symmetry(), solver);
-    if (!symmetric && resists_all(by)) return true;
+    if (system.symmetry() == la::Symmetry::unsymmetric && resists_all(by)) return true;
     const la::FactorReport report = solver.factor(k, system.pattern_version(), system.symmetry());
     forget();
     if (report.status != la::SolveStatus::ok || report.condition > 0) return false;

@@ -382,8 +382,11 @@ template <System S>
     if (result.total.size() == 0) result.total.setZero(du.size());
     result.total += searched.step * du;
     const bool last = detail::conclude(judge, du, searched.step, energy_before, result, former);
+    const bool look = known && last && former.doubtful(system, result);
+    if (look) system.evaluate(committed, result.trial, time, true, result.evaluation);
     const bool ended = last && detail::is_sound(system, solver, former, result);
-    if (known && !ended) system.evaluate(committed, result.trial, time, true, result.evaluation);
+    if (known && !look && !ended)
+      system.evaluate(committed, result.trial, time, true, result.evaluation);
     if (peeling.turns(system, committed, time, ended, result))
       judge.begin_again();
     else if (ended) {
