@@ -65,6 +65,32 @@ class Init(unittest.TestCase):
         done = self.program("run", "model.yaml", "--quiet")
         self.assertEqual(done.returncode, 0, done.stderr)
 
+    def test_surfaces_that_meet_at_an_edge_do_not_touch(self):
+        """Half models: the plane of symmetry of either block ends at the edge where the other one stands."""
+        blocks = {"low": (0, 3, 0, 1), "up": (1, 2, 1.01, 2)}
+        nodes, cells = [], []
+        for tag, (x0, x1, z0, z1) in enumerate(blocks.values()):
+            corner = [len(nodes) + k for k in range(1, 9)]
+            nodes += [(x, y, z) for z in (z0, z1) for x, y in ((x0, 0), (x1, 0), (x1, 1), (x0, 1))]
+            for group, kind, picked in ((1, 5, range(8)), (3, 3, (0, 1, 2, 3)), (5, 3, (4, 5, 6, 7)), (7, 3, (0, 1, 5, 4))):
+                cells.append((kind, group + tag, [corner[k] for k in picked]))
+        names = [(3, "low"), (3, "up"), (2, "low_bottom"), (2, "up_bottom"), (2, "low_top"), (2, "up_top"), (2, "low_half"), (2, "up_half")]
+        with open(self.path("halves.msh"), "w") as file:
+            print("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames", len(names), sep="\n", file=file)
+            for number, (dimension, name) in enumerate(names, 1):
+                print(dimension, number, f'"{name}"', file=file)
+            print("$EndPhysicalNames\n$Nodes", len(nodes), sep="\n", file=file)
+            for number, x in enumerate(nodes, 1):
+                print(number, *x, file=file)
+            print("$EndNodes\n$Elements", len(cells), sep="\n", file=file)
+            for number, (kind, group, its) in enumerate(cells, 1):
+                print(number, kind, 2, group, group, *its, file=file)
+            print("$EndElements", file=file)
+        text = self.start(self.path("halves.msh"))
+        pairs = re.findall(r"^  - \{name: pair_\d, master: (\w+), slave: (\w+)", text, re.M)
+        self.assertEqual(pairs, [("low_top", "up_bottom")])
+        self.assertIn("doubtful: their normals are not opposite", text)
+
     def test_a_file_that_is_there_stays_as_it_is(self):
         shutil.copy(CLIP, self.path("clip.msh"))
         self.assertEqual(self.program("init", "clip.msh").stdout, "wrote clip.yaml\n")

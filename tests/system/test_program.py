@@ -354,7 +354,7 @@ class Program(unittest.TestCase):
         tangent = self.run_program("tangent", name)
         self.assertEqual(tangent.returncode, 0, tangent.stdout + tangent.stderr)
         check = self.run_program("check", name)
-        self.assertIn("15 of 15 slave nodes face the master, 15 touch", check.stdout)
+        self.assertIn("15 of 15 slave points face the master, 15 touch", check.stdout)
 
     def test_the_same_bits_with_one_and_two_threads_in_space(self):
         self.expect_the_same_bits(self.model(SPACE))

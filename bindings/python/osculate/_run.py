@@ -205,6 +205,15 @@ class Result:
             raise KeyError(f"there are no fields of step {step!r}; there are some of: {steps or 'none'}")
         return having[-1].parts
 
+    @property
+    def last_iterate(self):
+        """Of an analysis that failed: the iterate at which it gave up, to be drawn and asked for fields like an
+        increment (U, `flips`, `free_motion_1`, ...; docs/results.md). None where there is none."""
+        if not os.path.exists(os.path.join(self.folder, "last_iterate.vtu")):
+            return None
+        last = self.increments[-1]
+        return Increment(self, last.step, last.increment + 1, last.time, {}, {"bodies": "last_iterate.vtu"})
+
     def plot_history(self, *columns, x="time", file=None, ax=None):
         """Draws columns of the history over another one with matplotlib; returns the axes.
 

@@ -19,7 +19,7 @@ namespace {
 
 std::string gap_line(const std::string& pair, const result::GapFacts& g, std::size_t points) {
   return fmt::format(
-      "{:<13} {:<16} {} of {} slave nodes face the master, {} touch, {} overlap, gap {:.4g} to "
+      "{:<13} {:<16} {} of {} slave points face the master, {} touch, {} overlap, gap {:.4g} to "
       "{:.4g}\n",
       "Initial gaps", pair, g.found, points, g.touching, g.overlapping, g.smallest, g.largest);
 }
@@ -72,6 +72,7 @@ std::string contact_text(const model::BasicModel<Dim>& m, nlohmann::json& pairs,
     pairs.push_back({{"name", m.pairs[p].name},
                      {"points", m.pairs[p].definition.slave.points.size()},
                      {"facing", g.found},
+                     {"over_faces", g.over_faces},
                      {"touching", g.touching},
                      {"overlapping", g.overlapping},
                      {"smallest_gap", g.smallest},
@@ -83,7 +84,7 @@ std::string contact_text(const model::BasicModel<Dim>& m, nlohmann::json& pairs,
                                {"crossings", g.edge_contacts}};
   }
   if (!apart.empty())
-    text += fmt::format("{:<13} no node is near the other side: {}\n", "Initial gaps", apart);
+    text += fmt::format("{:<13} no point is near the other side: {}\n", "Initial gaps", apart);
   return text;
 }
 

@@ -197,8 +197,8 @@ std::string contact_part(const Start& s, const std::vector<FacingPair>& pairs) {
   std::size_t doubtful = 0;
   for (const FacingPair& pair : pairs) {
     if (!pair.doubt.empty() && ++doubtful > most_doubtful) continue;
-    text += fmt::format("  # {} of {} nodes face the master, gap {:.4g} to {:.4g}{}\n", pair.facing,
-                        pair.points, pair.smallest, pair.largest,
+    text += fmt::format("  # {} of {} points face the master, gap {:.4g} to {:.4g}{}\n",
+                        pair.facing, pair.points, pair.smallest, pair.largest,
                         pair.doubt.empty() ? "" : "; doubtful: " + pair.doubt);
     text += (pair.doubt.empty() ? "" : "#") + contact_entry(pair);
   }

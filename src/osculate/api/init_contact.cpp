@@ -18,7 +18,7 @@ namespace osculate::api {
 namespace {
 
 constexpr std::size_t most_tried = 60;  ///< pairs whose gaps are measured
-constexpr double enough_nodes = 0.5;    ///< of the slave's face the master, of a pair without doubt
+constexpr double enough_points = 0.5;   ///< of the slave's face the master, of a pair without doubt
 
 bool share_a_part(const Touchable& a, const Touchable& b) {
   if (a.rigid() && b.rigid()) return true;
@@ -73,7 +73,7 @@ bool measure(std::span<FacingPair> pairs, const std::string& path,
     const auto fact = by_name.find(pair.name);
     if (fact == by_name.end()) continue;
     pair.points = fact->second->at("points");
-    pair.facing = fact->second->at("facing");
+    pair.facing = fact->second->at("over_faces");
     if (pair.facing == 0) continue;
     pair.smallest = fact->second->at("smallest_gap");
     pair.largest = fact->second->at("largest_gap");
@@ -91,7 +91,7 @@ double common_part(const mesh::Set& a, const mesh::Set& b) {
 /// Whether both sides of two pairs are mostly the same facets.
 bool repeats(const FacingPair& a, const FacingPair& b) {
   const auto same = [](const Touchable* x, const Touchable* y) {
-    return common_part(*x->set, *y->set) > enough_nodes;
+    return common_part(*x->set, *y->set) > enough_points;
   };
   return (same(a.slave, b.slave) && same(a.master, b.master)) ||
          (same(a.slave, b.master) && same(a.master, b.slave));
@@ -109,7 +109,11 @@ bool is_behind(const FacingPair& pair, const FacingPair& nearer) {
 }
 
 std::string doubt_of(const FacingPair& pair, std::span<const FacingPair> better) {
-  if (pair.facing < enough_nodes * pair.points) return "few nodes face the other side";
+  constexpr double across = -0.5;  // cosine of two normals: 60 degrees from opposite
+  const Vec3 &master = pair.master->normal, &slave = pair.slave->normal;
+  if (!master.isZero() && !slave.isZero() && master.dot(slave) > across)
+    return "their normals are not opposite";
+  if (pair.facing < enough_points * pair.points) return "few points face the other side";
   if (std::abs(pair.smallest) > std::min(pair.master->facet, pair.slave->facet))
     return "the gap is larger than a facet";
   for (const FacingPair& other : better) {

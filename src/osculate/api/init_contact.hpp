@@ -13,7 +13,7 @@ struct FacingPair {
   std::string name;
   const Touchable* master = nullptr;
   const Touchable* slave = nullptr;
-  int points = 0, facing = 0;        ///< nodes of the slave, and those that face the master
+  int points = 0, facing = 0;        ///< of the slave, and those over faces of the master
   double smallest = 0, largest = 0;  ///< gap
   std::string doubt;                 ///< why it may be none; empty: it is one
 };

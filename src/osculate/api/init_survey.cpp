@@ -136,16 +136,52 @@ std::optional<bool> on_bodies(const Facets& facets) {
   return count != 0;
 }
 
-void add_touchable(const mesh::Mesh& mesh, const mesh::Set& set, bool on_body, MeshSurvey& found) {
+Vec3 area_of(const mesh::Mesh& mesh, const mesh::BoundaryFacet& facet) {
+  const auto at = [&](std::size_t k) {
+    return mesh.nodes[static_cast<std::size_t>(facet.node[k])];
+  };
+  return Vec3::UnitZ().cross(at(1) - at(0));
+}
+
+Vec3 area_of(const mesh::Mesh& mesh, const mesh::SurfaceFacet& facet) {
+  const std::span<const Index> corners = facet.corners();
+  const auto at = [&](std::size_t k) { return mesh.nodes[static_cast<std::size_t>(corners[k])]; };
+  Vec3 twice = Vec3::Zero();
+  for (std::size_t k = 2; k < corners.size(); ++k)
+    twice += (at(k - 1) - at(0)).cross(at(k) - at(0));
+  return twice / 2;
+}
+
+/// The outward normal of facets that are all but flat, else 0.
+template <class Facets>
+Vec3 flat_normal(const mesh::Mesh& mesh, const Facets& facets) {
+  constexpr double flat = 0.9;  // the resultant of all areas over their sum
+  Vec3 resultant = Vec3::Zero();
+  double sum = 0;
+  for (const auto& facet : facets.facets) {
+    const Vec3 area = area_of(mesh, facet);
+    resultant += area;
+    sum += area.norm();
+  }
+  if (resultant.norm() <= flat * sum) return Vec3::Zero();
+  return resultant.normalized();
+}
+
+template <class Facets>
+void add_touchable(const mesh::Mesh& mesh, const mesh::Set& set, const Facets& facets,
+                   MeshSurvey& found) {
+  const std::optional<bool> on_body = on_bodies(facets);
+  if (!on_body) return;
   Touchable one;
   one.set = &set;
+  if (*on_body) one.normal = flat_normal(mesh, facets);
   one.bounds = bounds_of(mesh, set);
   for (const mesh::CellRef& ref : set.cells) {
     Bounds facet;
     for (const Index node : nodes_of(mesh, ref))
       facet.add(mesh.nodes[static_cast<std::size_t>(node)]);
     one.facet = std::max(one.facet, facet.size());
-    if (on_body)
+    if (*on_body)
       one.parts.push_back(
           found.part_of_node[static_cast<std::size_t>(nodes_of(mesh, ref).front())]);
   }
@@ -161,9 +197,10 @@ void find_touchables(const mesh::Mesh& mesh, std::span<const mesh::CellRef> cell
   const mesh::FaceTable faces = plane ? mesh::FaceTable{} : mesh::face_table(mesh, cells);
   for (const mesh::Set& set : mesh.sets) {
     if (set.dimension != found.dimension - 1 || set.cells.empty()) continue;
-    const std::optional<bool> on_body = plane ? on_bodies(mesh::orient_boundary(mesh, edges, set))
-                                              : on_bodies(mesh::orient_surface(mesh, faces, set));
-    if (on_body) add_touchable(mesh, set, *on_body, found);
+    if (plane)
+      add_touchable(mesh, set, mesh::orient_boundary(mesh, edges, set), found);
+    else
+      add_touchable(mesh, set, mesh::orient_surface(mesh, faces, set), found);
   }
 }
 

@@ -29,6 +29,8 @@ struct Touchable {
   std::vector<Index> parts;  ///< bodies it is a surface of; none: a rigid surface of its own
   Bounds bounds;
   double facet = 0;  ///< size of its largest facet
+  Vec3 normal =
+      Vec3::Zero();  ///< outward, where it is all but flat and has cells behind it; else 0
   [[nodiscard]] bool rigid() const { return parts.empty(); }
 };
 

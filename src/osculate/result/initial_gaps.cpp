@@ -24,6 +24,7 @@ GapFacts gap_facts(const pairing::PairState<Dim>& state, double rounding) {
     facts.smallest = facts.found ? std::min(facts.smallest, gap) : gap;
     facts.largest = facts.found ? std::max(facts.largest, gap) : gap;
     ++facts.found;
+    if (point.feature == projection::Feature::face) ++facts.over_faces;
     if (gap == 0) ++facts.touching;
     if (gap < 0) ++facts.overlapping;
   }

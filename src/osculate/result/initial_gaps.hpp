@@ -11,6 +11,8 @@ namespace osculate::result {
 /// them; those below `rounding` are none.
 struct GapFacts {
   int found = 0, touching = 0, overlapping = 0, edge_contacts = 0;
+  int over_faces =
+      0;  ///< of those found: the closest point lies inside a face, not on a border or edge
   double smallest = 0, largest = 0;
   std::size_t deepest = 0;  ///< point with the smallest gap
 };

@@ -91,6 +91,7 @@ TEST(InitSurvey, FacetsAreOfABodyOrRigid) {
     if (one.set->name == "high.bottom") {
       EXPECT_THAT(one.parts, ElementsAre(1));
       EXPECT_DOUBLE_EQ(one.facet, 0.5);
+      EXPECT_NEAR((one.normal + Vec3::UnitY()).norm(), 0, 1e-14);
     }
   }
   EXPECT_EQ(rigid, 1);

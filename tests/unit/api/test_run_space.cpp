@@ -338,7 +338,7 @@ TEST_F(RunSpace, ReportShowsTheOuterFaces) {
 TEST_F(RunSpace, CheckPrintsGaps) {
   const CheckReport report =
       check(write(edited(model, "[0, 0, 0], normal", "[0, 0, -0.25], normal")));
-  EXPECT_NE(report.text.find("15 of 15 slave nodes face the master, 0 touch, 0 overlap, gap 0.25 "
+  EXPECT_NE(report.text.find("15 of 15 slave points face the master, 0 touch, 0 overlap, gap 0.25 "
                              "to 0.25"),
             std::string::npos)
       << report.text;
