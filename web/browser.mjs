@@ -1,7 +1,13 @@
-// Headless Chromium over its pipe, for the checks of the page: what it says is kept, clicks and keys are those of a user.
+// Headless Chromium over its pipe, for the checks of the page: what it says is kept, clicks and keys are those of a user. And what
+// the checks have in common: a folder, a verdict, pictures.
 import { spawn } from 'node:child_process';
-import { join } from 'node:path';
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join, resolve } from 'node:path';
 import { setTimeout as pause } from 'node:timers/promises';
+
+/** Chromium has ended, or the process that draws the page has: nothing that the page could do. */
+export class BrowserCrashed extends Error {}
 
 /** {send(method, params), evaluate(expression), click(x, y), hover(x, y), drag(from, to), key(name), process}. */
 export async function openBrowser(dir, problems) {
@@ -15,26 +21,45 @@ export async function openBrowser(dir, problems) {
   });
   await started;
   const waiting = new Map();
-  let [number, rest, session] = [0, '', undefined];
+  let [number, rest, session, crash] = [0, '', undefined, null];
+  const crashed = (how) => {
+    crash ??= new BrowserCrashed(how);
+    for (const settle of waiting.values()) settle({ crash });
+    waiting.clear();
+  };
+  child.once('exit', (code, signal) => crashed(`Chromium has ended by itself (${signal ?? `exit code ${code}`})`));
+  child.stdio[3].on('error', () => crashed('Chromium takes no more commands'));
   child.stdio[4].on('data', (bytes) => {
     const parts = (rest + bytes).split('\0');
     rest = parts.pop();
     for (const part of parts) {
       const message = JSON.parse(part);
-      if (message.id) waiting.get(message.id)?.(message);
+      if (message.id) {
+        waiting.get(message.id)?.(message);
+        waiting.delete(message.id);
+      }
+      if (message.method === 'Inspector.targetCrashed') crashed('the page\'s process has crashed');
       if (message.method === 'Runtime.consoleAPICalled') problems.push(`console: ${JSON.stringify(message.params.args)}`);
       if (message.method === 'Runtime.exceptionThrown') problems.push(JSON.stringify(message.params.exceptionDetails));
       if (message.method === 'Log.entryAdded') problems.push(`log: ${message.params.entry.text} ${message.params.entry.url ?? ''}`);
     }
   });
   const send = (method, params = {}) => new Promise((resolve, reject) => {
-    waiting.set(++number, ({ result, error }) => (error ? reject(new Error(`${method}: ${error.message}`)) : resolve(result)));
+    if (crash) {
+      reject(crash);
+      return;
+    }
+    waiting.set(++number, (answer) => {
+      if (answer.crash) reject(answer.crash);
+      else if (answer.error) reject(new Error(`${method}: ${answer.error.message}`));
+      else resolve(answer.result);
+    });
     child.stdio[3].write(`${JSON.stringify({ id: number, method, params, sessionId: session })}\0`);
   });
   const { targetInfos } = await send('Target.getTargets');
   ({ sessionId: session } = await send('Target.attachToTarget',
     { targetId: targetInfos.find((t) => t.type === 'page').targetId, flatten: true }));
-  for (const domain of ['Runtime', 'Log', 'Page']) await send(`${domain}.enable`);
+  for (const domain of ['Runtime', 'Log', 'Page', 'Inspector']) await send(`${domain}.enable`);
   const evaluate = async (expression) => {
     const { result, exceptionDetails } = await send('Runtime.evaluate', { expression, returnByValue: true, awaitPromise: true });
     if (exceptionDetails) throw new Error(JSON.stringify(exceptionDetails));
@@ -87,4 +112,53 @@ export function judge(problems) {
     else problems.push(`${name}: '${found}', wanted ${wanted}`);
   };
   return { equal, close };
+}
+
+/** What follows a name on the command line, or null. */
+export function argument(name) {
+  const at = process.argv.indexOf(name);
+  return at < 0 ? null : process.argv[at + 1];
+}
+
+/** A picture of the whole page, where the command line has `--shot PREFIX`. */
+export async function picture(page, name) {
+  if (!argument('--shot')) return;
+  const { data } = await page.send('Page.captureScreenshot', { captureBeyondViewport: true });
+  writeFileSync(resolve(`${argument('--shot')}${name}`), Buffer.from(data, 'base64'));
+}
+
+/** Runs `body({dir, start, browser})` in a folder of its own, says what was found, and ends the process: 1 where there are problems, or
+    it has thrown. `start` runs a command there, `browser` starts Chromium; both are ended with it. Where Chromium has crashed, and only
+    then, all is done once more, which is said; what was a problem before remains one. `body` gives lines to say where all is well. */
+export async function check(name, problems, body) {
+  const said = [];
+  for (let crashes = 0, done = false; !done;) {
+    const dir = mkdtempSync(join(tmpdir(), `osculate-${name}-`));
+    const children = [];
+    const start = (command, args, options = {}) => {
+      children.push(spawn(command, args, { cwd: dir, ...options }));
+      return children.at(-1);
+    };
+    const browser = async () => {
+      const page = await openBrowser(dir, problems);
+      children.push(page.process);
+      return page;
+    };
+    try {
+      said.push(...await body({ dir, start, browser }) ?? []);
+      done = true;
+    } catch (error) {
+      done = !(error instanceof BrowserCrashed) || ++crashes > 1;
+      if (done) problems.push(error.stack);
+      else said.push(`${error.message}; started once more`);
+    }
+    for (const child of children) {
+      child.kill('SIGCONT');
+      child.kill('SIGKILL');
+    }
+    await pause(300);
+    rmSync(dir, { recursive: true, force: true, maxRetries: 20, retryDelay: 200 });
+  }
+  console.log([...said, ...(problems.length ? problems.slice(0, 40) : ['no errors'])].join('\n'));
+  process.exit(problems.length ? 1 : 0);
 }

@@ -1,26 +1,19 @@
 // Opens a report in headless Chromium and fails on any console message or missing part.
 //
-// node smoke.mjs [REPORT.html] [--shot FILE.png]; without REPORT, examples are made.
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
-import { join, resolve } from 'node:path';
+// node smoke.mjs [REPORT.html] [--shot PREFIX]; without REPORT, examples are made. A page with a fault does not keep the others from being looked at.
+import { writeFileSync } from 'node:fs';
+import { basename, join, resolve } from 'node:path';
 import { setTimeout as pause } from 'node:timers/promises';
-import { openBrowser, until } from './browser.mjs';
+import { BrowserCrashed, check, picture, until } from './browser.mjs';
 import { example, page } from './example.mjs';
 
-/** Problems of one page: console messages and missing parts. */
-async function problems(browser, said, file, wanted) {
-  said.length = 0;
+/** A page as it is shown; parts that it lacks are problems. */
+async function look(browser, file, wanted) {
   await browser.send('Page.navigate', { url: `file://${resolve(file)}` });
-  await until(file, () => browser.evaluate("document.readyState === 'complete' && document.querySelector('h1') !== null"), Boolean);
+  await until('page', () => browser.evaluate("document.readyState === 'complete' && document.querySelector('h1') !== null"), Boolean);
   await pause(500); // pictures are drawn in frames to come
   const dom = await browser.evaluate(`document.documentElement.outerHTML.replace(/<script[\\s\\S]*?<\\/script>/g, '')`);
-  return [...said, ...wanted.filter((part) => !dom.includes(part)).map((part) => `missing: ${part}`)];
-}
-
-function argument(name) {
-  const at = process.argv.indexOf(name);
-  return at < 0 ? null : process.argv[at + 1];
+  return wanted.filter((part) => !dom.includes(part)).map((part) => `missing: ${part}`);
 }
 
 const energies = ['kinetic', 'strain', 'contact', 'external', 'friction', 'damping', 'numerical', 'residual']
@@ -83,38 +76,41 @@ function space() {
   };
 }
 
-const dir = mkdtempSync(join(tmpdir(), 'osculate-smoke-'));
-let failed = false;
-const given = process.argv[2]?.endsWith('.html') ? process.argv[2] : null;
-const pages = given ? [[given, ['<h1>']]] : [];
-if (!given) {
+/** [file, parts that it has to have] of the pages that are looked at. */
+function pages(dir) {
+  const given = process.argv[2]?.endsWith('.html') ? process.argv[2] : null;
+  if (given) return [[given, ['<h1>']]];
+  const written = (name, content, parts) => {
+    const file = join(dir, `${name}.html`);
+    writeFileSync(file, content);
+    return [file, parts];
+  };
   const parts = ['<h1>', 'id="body"', 'id="histories"', 'id="convergence"', 'id="model"', 'id="run"', 'u-over'];
-  for (const [name, options] of Object.entries({ done: {}, failed: { failed: true }, one: { frames: 2, cells: 12 } })) {
-    const file = join(dir, `${name}.html`);
-    writeFileSync(file, example(options));
-    pages.push([file, options.failed ? [...parts, 'id="diagnosis"'] : parts]);
-  }
+  return [
+    written('done', example({}), parts),
+    written('failed', example({ failed: true }), [...parts, 'id="diagnosis"']),
+    written('one', example({ frames: 2, cells: 12 }), parts),
+    written('bare', page({ title: 'bare' }), ['<h1>bare']),
+    written('cells', page(everyCell()), ['<h1>', 'id="body"', 'id="energy"', 'lost numerically']),
+    written('space', page(space()), ['<h1>', 'id="body"', 'id="diagnosis"', 'turning about', 'class="bodies"', 'nodes of top']),
+  ];
 }
-if (!given) {
-  for (const [name, data] of Object.entries({ bare: { title: 'bare' }, cells: everyCell(), space: space() })) {
-    const file = join(dir, `${name}.html`);
-    writeFileSync(file, page(data));
-    pages.push([file, name === 'bare' ? ['<h1>bare']
-      : ['<h1>', 'id="body"', ...(name === 'space' ? ['id="diagnosis"', 'turning about', 'class="bodies"', 'nodes of top'] : ['id="energy"', 'lost numerically'])]]);
+
+const problems = [];
+await check('smoke', problems, async ({ dir, browser }) => {
+  const chromium = await browser();
+  const said = [];
+  for (const [file, parts] of pages(dir)) {
+    const before = problems.length;
+    try {
+      problems.push(...await look(chromium, file, parts));
+      await picture(chromium, basename(file, '.html') + '.png');
+    } catch (error) {
+      if (error instanceof BrowserCrashed) throw error;
+      problems.push(error.stack);
+    }
+    for (let i = before; i < problems.length; ++i) problems[i] = `${basename(file)}: ${problems[i]}`;
+    said.push(`${basename(file)}: ${problems.length > before ? 'faults' : 'no errors'}`);
   }
-}
-const said = [];
-const browser = await openBrowser(dir, said);
-for (const [file, parts] of pages) {
-  const found = await problems(browser, said, file, parts);
-  console.log(`${file}: ${found.length ? found.join('\n  ') : 'no errors'}`);
-  failed ||= found.length > 0;
-  if (argument('--shot')) {
-    const { data } = await browser.send('Page.captureScreenshot', { captureBeyondViewport: true });
-    writeFileSync(resolve(argument('--shot')), Buffer.from(data, 'base64'));
-  }
-}
-browser.process.kill('SIGKILL');
-await pause(300);
-rmSync(dir, { recursive: true, force: true, maxRetries: 20, retryDelay: 200 });
-process.exit(failed ? 1 : 0);
+  return said;
+});

@@ -3,16 +3,13 @@
 //
 // node smoke_clicks.mjs PROGRAM [--shot PREFIX]
 import { execFileSync } from 'node:child_process';
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { readFileSync, writeFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
 import { setTimeout as pause } from 'node:timers/promises';
-import { judge, openBrowser, until } from './browser.mjs';
+import { check, judge, picture, until } from './browser.mjs';
 import { numbers } from './src/data.js';
 
 const program = resolve(process.argv[2]);
-const shot = process.argv.includes('--shot') ? process.argv[process.argv.indexOf('--shot') + 1] : null;
-const dir = mkdtempSync(join(tmpdir(), 'osculate-clicks-'));
 const problems = [];
 const { equal, close } = judge(problems);
 
@@ -40,7 +37,7 @@ output: {history: [{on: c, of: normal_force}]}
 `;
 
 /** What the program has left: report, summary, rows of the history by column. */
-function run(name, model) {
+function run(dir, name, model) {
   writeFileSync(join(dir, `${name}.yaml`), model);
   execFileSync(program, ['run', `${name}.yaml`, '--quiet'], { cwd: dir });
   const folder = join(dir, `${name}.results`);
@@ -68,12 +65,6 @@ async function place(page, expression) {
 }
 const one = (selector) => `document.querySelector(${JSON.stringify(selector)})`;
 const plotOf = (title) => `[...document.querySelectorAll('.plot')].find((p) => p.ariaLabel === ${JSON.stringify(title)}).querySelector('.u-over')`;
-
-async function picture(page, name) {
-  if (!shot) return;
-  const { data } = await page.send('Page.captureScreenshot', { captureBeyondViewport: true });
-  writeFileSync(`${shot}${name}.png`, Buffer.from(data, 'base64'));
-}
 
 /** Chooses an option by the keys of a user: the list with the focus, arrows. */
 async function choose(page, selector, wanted) {
@@ -222,11 +213,7 @@ async function table(page, results) {
   equal('rows of the table', rows.map((r) => [r[0], Number(r[3])]), all);
 }
 
-async function inPlane(page) {
-  const results = run('plane', plane);
-  await open(page, results);
-  await tiles(page, results);
-  await frames(page, results);
+async function inPlane(page, results) {
   const last = results.report.frames.length - 1;
   await choose(page, '#body select', 'displacement ux');
   const value = (i, u) => u[2 * i];
@@ -251,17 +238,10 @@ async function inPlane(page) {
   await place(page, one('#body canvas'));
   equal('fit', await near(), whole);
   const points = await histories(page, results, 'c.normal_force');
-  await bars(page, results);
-  await table(page, results);
-  await picture(page, 'plane');
   return `plane: ${nodes} + ${stressed} nodes, ${points} points of a curve`;
 }
 
-async function inSpace(page) {
-  const results = run('space', space);
-  await open(page, results);
-  await tiles(page, results);
-  await frames(page, results);
+async function inSpace(page, results) {
   const last = results.report.frames.length - 1;
   await choose(page, '#body select', 'displacement uz');
   const nodes = await compareNodes(page, results, 3, 'space', last, 'displacement uz', (i, u) => u[3 * i + 2]);
@@ -271,22 +251,23 @@ async function inSpace(page) {
   await pause(100);
   const turned = await compareNodes(page, results, 3, 'turned', last, 'displacement uz', (i, u) => u[3 * i + 2]);
   if (Math.min(nodes, turned) < 12) problems.push(`space: only ${nodes} and ${turned} nodes were found`);
-  await bars(page, results);
-  await table(page, results);
-  await picture(page, 'space');
   return `space: ${nodes} + ${turned} nodes`;
 }
 
-let page = null;
-const said = [];
-try {
-  page = await openBrowser(dir, problems);
-  said.push(await inPlane(page), await inSpace(page));
-} catch (error) {
-  problems.push(error.stack);
+/** What every report has, and in between what `look` looks at; it says what it has found. */
+async function report(dir, page, name, model, look) {
+  const results = run(dir, name, model);
+  await open(page, results);
+  await tiles(page, results);
+  await frames(page, results);
+  const found = await look(page, results);
+  await bars(page, results);
+  await table(page, results);
+  await picture(page, `${name}.png`);
+  return found;
 }
-page?.process.kill('SIGKILL');
-await pause(300);
-rmSync(dir, { recursive: true, force: true, maxRetries: 20, retryDelay: 200 });
-console.log([...said, ...(problems.length ? problems.slice(0, 40) : ['no errors'])].join('\n'));
-process.exit(problems.length ? 1 : 0);
+
+await check('clicks', problems, async ({ dir, browser }) => {
+  const page = await browser();
+  return [await report(dir, page, 'plane', plane, inPlane), await report(dir, page, 'space', space, inSpace)];
+});

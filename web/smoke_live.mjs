@@ -2,17 +2,12 @@
 // run standing still, going on and done; clicks by a user in between. Fails on any console message.
 //
 // node smoke_live.mjs PROGRAM [--shot PREFIX]
-import { spawn } from 'node:child_process';
-import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
 import { setTimeout as pause } from 'node:timers/promises';
-import { judge, openBrowser, until } from './browser.mjs';
+import { check, judge, picture, until } from './browser.mjs';
 
 const program = resolve(process.argv[2]);
-const shot = process.argv.includes('--shot') ? process.argv[process.argv.indexOf('--shot') + 1] : null;
-const dir = mkdtempSync(join(tmpdir(), 'osculate-live-'));
-const children = [];
 const problems = [];
 const { equal } = judge(problems);
 
@@ -29,21 +24,9 @@ steps:
 output: {history: [{on: c, of: normal_force}, {on: c, of: slipping}]}
 `;
 
-function start(command, args, options = {}) {
-  const child = spawn(command, args, { cwd: dir, ...options });
-  children.push(child);
-  return child;
-}
-
-async function picture(page, name) {
-  if (!shot) return;
-  const { data } = await page.send('Page.captureScreenshot', { captureBeyondViewport: true });
-  writeFileSync(`${shot}${name}.png`, Buffer.from(data, 'base64'));
-}
-
 /** Lets the run go on until its history has so many rows more. */
-async function further(run, more) {
-  const rows = () => readFileSync(join(dir, 'm.results/history.csv'), 'utf8').split('\n').length;
+async function further(run, history, more) {
+  const rows = () => readFileSync(history, 'utf8').split('\n').length;
   const before = rows();
   run.kill('SIGCONT');
   while (rows() < before + more && run.exitCode === null) await pause(1);
@@ -55,16 +38,16 @@ const text = (selector) => `document.querySelector(${JSON.stringify(selector)})?
 const tile = (name) => `[...document.querySelectorAll('.tile')].find((t) => t.lastChild.textContent === ${JSON.stringify(name)})?.firstChild.textContent`;
 const click = (selector) => `document.querySelector(${JSON.stringify(selector)}).click()`;
 
-async function main() {
+async function main({ dir, start, browser }) {
+  const history = join(dir, 'm.results/history.csv');
   writeFileSync(join(dir, 'm.yaml'), model);
   const run = start(program, ['run', 'm.yaml', '--quiet']);
-  await until('history', () => existsSync(join(dir, 'm.results/history.csv')), Boolean);
-  await further(run, 6);
+  await until('history', () => existsSync(history), Boolean);
+  await further(run, history, 6);
   const server = start(program, ['view', 'm.results'], { stdio: ['ignore', 'pipe', 'inherit'] });
   const url = String(await new Promise((resolve) => { server.stdout.once('data', resolve); })).trim();
   const ask = async () => (await fetch(`${url}state.json`)).json();
-  const page = await openBrowser(dir, problems);
-  children.push(page.process);
+  const page = await browser();
   await page.send('Page.navigate', { url });
   await until('plot', () => page.evaluate(`document.querySelectorAll('#live canvas').length`), (n) => n === 1);
 
@@ -90,29 +73,29 @@ async function main() {
   equal('title', await page.evaluate(text('h1')), 'watched block');
   const last = () => `increment ${made.at(-1).row[1]}, time`;
   if (!(await readout()).includes(last())) problems.push(`first: the last frame is not shown: ${await readout()}`);
-  await picture(page, 'first');
+  await picture(page, 'first.png');
 
   // a field is chosen, the picture is moved in: both stay when the next increments come
   await page.evaluate(`{ const s = document.querySelector('#body select'); s.value = 'displacement ux'; s.dispatchEvent(new Event('change')); }`);
   await page.evaluate(click('#body button[title="zoom in"]'));
-  await further(run, 5);
+  await further(run, history, 5);
   made = await compare('second');
   equal('plot', await page.evaluate(`document.querySelectorAll('#live canvas').length`), 1); // the page has been built anew meanwhile
   equal('field', await page.evaluate(`document.querySelector('#body select').value`), 'displacement ux');
   if (!(await readout()).includes(last())) problems.push(`second: the last frame is not shown: ${await readout()}`);
-  await picture(page, 'second');
+  await picture(page, 'second.png');
 
   // an earlier frame is looked at: it stays
   await page.evaluate(`{ const s = document.querySelector('#body .player input'); s.value = 2; s.dispatchEvent(new Event('input')); }`);
   const early = (await readout()).split('(')[0];
-  await further(run, 5);
+  await further(run, history, 5);
   made = await compare('third');
   equal('frame', (await readout()).split('(')[0], early);
 
   // without following all but the increment under way stands still
   const shown = made.length;
   await page.evaluate(click('#live input'));
-  await further(run, 5);
+  await further(run, history, 5);
   const state = await ask();
   await until('unfollowed', () => page.evaluate(text('#live .log')), (t) => t === state.log.join('\n'));
   await pause(1500);
@@ -127,7 +110,7 @@ async function main() {
   equal('done: iterations', await page.evaluate(tile('iterations')),
     String(summary.total.iterations).replace(/\B(?=(\d{3})+$)/g, '\u202f'));
   equal('done: live', await page.evaluate(`document.querySelector('#live').hidden`), true);
-  await picture(page, 'done');
+  await picture(page, 'done.png');
 
   // Ctrl-C
   const code = await new Promise((resolve) => { server.once('exit', resolve); server.kill('SIGINT'); });
@@ -136,12 +119,4 @@ async function main() {
   for (let i = problems.length - 1; i >= 0; --i) if (problems[i].includes('ERR_CONNECTION_REFUSED')) problems.splice(i, 1); // it has ended
 }
 
-await main().catch((error) => problems.push(error.stack));
-for (const child of children) {
-  child.kill('SIGCONT');
-  child.kill('SIGKILL');
-}
-await pause(300);
-rmSync(dir, { recursive: true, force: true, maxRetries: 20, retryDelay: 200 });
-console.log(problems.length ? problems.join('\n') : 'no errors');
-process.exit(problems.length ? 1 : 0);
+await check('live', problems, main);

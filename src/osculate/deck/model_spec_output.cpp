@@ -44,7 +44,10 @@ Spec quantity_spec() {
               word("force_z", Q::force_z, "contact force on the slave in z (models in space)"),
               word("normal_force", Q::normal_force,
                    "sum of the normal forces, positive in contact"),
-              word("shear_force", Q::shear_force, "sum of the tangential forces"),
+              word("shear_force", Q::shear_force,
+                   "sum of the tangential forces on the slave: in the plane positive along the "
+                   "master (the body on "
+                   "the right), in space its length"),
               word("max_pressure", Q::max_pressure, "largest contact pressure"),
               word("max_penetration", Q::max_penetration, "largest penetration"),
               word("stick", Q::stick, "number of sticking points"),
