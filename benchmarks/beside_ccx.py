@@ -130,8 +130,8 @@ def table(heads, rows):
 
 def line_of(r):
     return [r["problem"], f"{r['unknowns']}", f"{r['seconds']:.2f} / {r['seconds_ccx']:.2f}",
-            f"{r['ratio']:.1f} ({r['from']:.1f}, {r['to']:.1f})",
-            f"{r['iterations']} ({r['factorisations']}) / {r['iterations_ccx']}",
+            f"{r['ratio']:.1f}" + (f" ({r['from']:.1f}, {r['to']:.1f})" if "from" in r else ""),
+            f"{r['iterations']}" + (f" ({r['factorisations']})" if "factorisations" in r else "") + f" / {r['iterations_ccx']}",
             f"{r['memory']:.0f} / {r['memory_ccx']:.0f}", f"{r['difference']:.1e}",
             " ".join(f"{r[phase]:.0%}" for phase in PHASES)]
 

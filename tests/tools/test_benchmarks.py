@@ -27,6 +27,20 @@ def blocks_of(deck):
     return found
 
 
+class Records(unittest.TestCase):
+    def test_pages_have_what_was_kept(self):
+        sys.path.insert(0, str(ROOT / "benchmarks"))
+        import records
+        rows = records.history()
+        self.assertGreater(len(rows), 10)
+        for name in records.PAGES:
+            with self.subTest(page=name):
+                text = (ROOT / name).read_text()
+                self.assertIn("<!-- history ", text)
+                self.assertEqual(records.renewed(text, rows), text, "benchmarks/records.py --write")
+                self.assertNotEqual(records.renewed(text, [{**row, "seconds": 1e9} for row in rows]), text)
+
+
 class Problems(unittest.TestCase):
     def setUp(self):
         self.decks = {name: make(4, 1e-9) for name, (make, _) in problems.PROBLEMS.items()}
