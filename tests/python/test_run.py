@@ -102,6 +102,11 @@ class Runs(unittest.TestCase):
         self.assertEqual(str(raised.exception), result.message)
         self.assertIn("diagnosis", result.summary)
         self.assertGreater(result.history["c.normal_force"][1], 0)
+        last = result.last_iterate
+        self.assertEqual(last.increment, result.increments[-1].increment + 1)
+        self.assertEqual(last["U"].shape, result.increments[-1]["U"].shape)
+        self.assertIn("flips", last.parts["bodies"].point_data)
+        self.assertIsNone(osculate.run(block()).last_iterate)
 
     def test_two_runs_in_one_process_give_the_same_bytes(self):
         for name in ("first", "second"):
