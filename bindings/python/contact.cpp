@@ -333,6 +333,23 @@ py::dict derivative_check(const AnyEvaluator& self, const Numbers& x, const AnyH
   return out;
 }
 
+py::dict pattern(const AnyEvaluator& self, const Numbers& x, const AnyHistory& committed,
+                 double motion, double distance) {
+  Pattern found = with(self, [&]<int Dim>(const Evaluator<Dim>& e) {
+    return e.pattern(coordinates_of<Dim>(x), committed.of<Dim>(), {motion, distance});
+  });
+  std::vector<Index> couplings;
+  for (const Coupling& c : found.couplings) couplings.insert(couplings.end(), {c.point, c.facet});
+  py::dict out;
+  out["dim"] = found.dimension;
+  out["couplings"] = array_of(std::move(couplings)).attr("reshape")(-1, 2);
+  out["row_start"] = array_of(std::move(found.row_start));
+  out["columns"] = array_of(std::move(found.columns));
+  out["point_start"] = array_of(std::move(found.point_start));
+  out["point_nodes"] = array_of(std::move(found.point_nodes));
+  return out;
+}
+
 py::list slave_points(const AnyEvaluator& self) {
   return with(self, []<int Dim>(const Evaluator<Dim>& e) {
     py::list out;
@@ -431,6 +448,7 @@ void add_evaluator(py::module_& m) {
            })
       .def("evaluate", evaluate)
       .def("derivative_check", derivative_check)
+      .def("pattern", pattern)
       .def("slave_points", slave_points,
            "[(nodes, shape, facet), ...] of the slave points in the order of Evaluation.points: "
            "each is sum shape[k] x[nodes[k]]; facet -1: a node.");

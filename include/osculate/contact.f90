@@ -55,6 +55,9 @@ module osculate_contact
     integer(c_int32_t) :: row, column
     real(c_double) :: value
   end type
+  type, bind(c) :: osculate_coupling
+    integer(c_int32_t) :: point, facet
+  end type
   type, bind(c) :: osculate_block
     type(c_ptr) :: rows, columns, values
     integer(c_int32_t) :: row_count, column_count
@@ -217,6 +220,48 @@ module osculate_contact
       import
       type(c_ptr), value :: evaluator, start, nodes, shape, facet
       integer(c_size_t), intent(inout) :: points, terms
+    end function
+    integer(c_int) function osculate_pattern_create(evaluator, coordinates, size, committed, &
+                                                    motion, distance, out) bind(c)
+      import
+      type(c_ptr), value :: evaluator, committed
+      real(c_double), intent(in) :: coordinates(*)
+      integer(c_size_t), value :: size
+      real(c_double), value :: motion, distance
+      type(c_ptr), intent(out) :: out
+    end function
+    subroutine osculate_pattern_free(pattern) bind(c)
+      import
+      type(c_ptr), value :: pattern
+    end subroutine
+    integer(c_int) function osculate_pattern_couplings(pattern, couplings, count) bind(c)
+      import
+      type(c_ptr), value :: pattern
+      type(c_ptr), intent(out) :: couplings
+      integer(c_size_t), intent(out) :: count
+    end function
+    integer(c_int) function osculate_pattern_nodes(pattern, row_start, columns, nodes) bind(c)
+      import
+      type(c_ptr), value :: pattern
+      type(c_ptr), intent(out) :: row_start, columns
+      integer(c_size_t), intent(out) :: nodes
+    end function
+    integer(c_int) function osculate_pattern_points(pattern, start, nodes, points) bind(c)
+      import
+      type(c_ptr), value :: pattern
+      type(c_ptr), intent(out) :: start, nodes
+      integer(c_size_t), intent(out) :: points
+    end function
+    ! row_start and columns: c_loc of them, or c_null_ptr
+    integer(c_int) function osculate_pattern_csr(pattern, row_of, row_count, column_of, &
+                                                 column_count, rows, base, row_start, columns, &
+                                                 size) bind(c)
+      import
+      type(c_ptr), value :: pattern, row_start, columns
+      integer(c_size_t), value :: row_count, column_count, rows
+      integer(c_int32_t), intent(in) :: row_of(*), column_of(*)
+      integer(c_int32_t), value :: base
+      integer(c_size_t), intent(inout) :: size
     end function
     integer(c_int) function osculate_read_history(evaluator, bytes, size, out) bind(c)
       import

@@ -294,6 +294,43 @@ osculate_status osculate_add_entries(const osculate_entry* entries, size_t count
 osculate_status osculate_add_entries64(const osculate_entry* entries, size_t count,
                                        const osculate_csr64* matrix);
 
+/* Where entries of the tangent may be, before it is evaluated: for all evaluations at coordinates
+ * of which no node is farther than `motion` from these, with this history or, but for contact of a
+ * surface with itself, one that such evaluations have committed. More places than will be needed,
+ * never fewer. `distance` is a promise of the host's: points in contact are not farther than this
+ * from their place on the master; HUGE_VAL: nothing is promised. */
+typedef struct osculate_pattern osculate_pattern;
+osculate_status osculate_pattern_create(const osculate_evaluator* evaluator,
+                                        const double* coordinates, size_t size,
+                                        const osculate_history* committed, double motion,
+                                        double distance, osculate_pattern** out);
+void osculate_pattern_free(osculate_pattern* pattern);
+/* Slave points and the facets of the master that they may press on, ascending. Like all pointers
+ * into a pattern it lasts as long as the pattern. */
+typedef struct osculate_coupling {
+  int32_t point, facet;
+} osculate_coupling;
+osculate_status osculate_pattern_couplings(const osculate_pattern* pattern,
+                                           const osculate_coupling** couplings, size_t* count);
+/* In compressed rows the nodes whose coordinates the forces of a node may depend on, ascending:
+ * entries lie in these blocks of dimension x dimension. */
+osculate_status osculate_pattern_nodes(const osculate_pattern* pattern, const int32_t** row_start,
+                                       const int32_t** columns, size_t* nodes);
+/* Likewise of each slave point the nodes that its constraints may be entries of. */
+osculate_status osculate_pattern_points(const osculate_pattern* pattern, const int32_t** start,
+                                        const int32_t** nodes, size_t* points);
+/* The places in a matrix of the host's with maps of coordinates as in osculate_csr: row_start[rows +
+ * 1] and columns[size], those that are not NULL. `size` says on entry how much room there is, and
+ * then how much is needed. */
+osculate_status osculate_pattern_csr(const osculate_pattern* pattern, const int32_t* row_of,
+                                     size_t row_count, const int32_t* column_of,
+                                     size_t column_count, size_t rows, int32_t base,
+                                     int32_t* row_start, int32_t* columns, size_t* size);
+osculate_status osculate_pattern_csr64(const osculate_pattern* pattern, const int64_t* row_of,
+                                       size_t row_count, const int64_t* column_of,
+                                       size_t column_count, size_t rows, int32_t base,
+                                       int64_t* row_start, int64_t* columns, size_t* size);
+
 typedef enum osculate_point_status {
   osculate_open = 0,
   osculate_stick = 1,

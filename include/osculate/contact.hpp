@@ -7,4 +7,5 @@
 #include "osculate/derivative_check.hpp"
 #include "osculate/errors.hpp"
 #include "osculate/evaluator.hpp"
+#include "osculate/pattern.hpp"
 #include "osculate/version.hpp"

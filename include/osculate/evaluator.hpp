@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "osculate/options.hpp"
+#include "osculate/pattern.hpp"
 #include "osculate/result.hpp"
 
 namespace osculate {
@@ -67,6 +68,13 @@ class Evaluator {
   void evaluate(std::span<const double> coordinates, const History<Dim>& committed,
                 const ActiveSet<Dim>& active_set, const Multipliers<Dim>& multipliers,
                 Result<Dim>& out, const Increment& increment = {}) const;
+
+  /// Places of the tangent that evaluations may need while no node is farther than `reach.motion`
+  /// from these coordinates: more than they will, never fewer (pattern.hpp).
+  /// Errors     Refused for a reach that is not >= 0, for mortar (unless tied) and for edge-edge
+  ///            contacts
+  [[nodiscard]] Pattern pattern(std::span<const double> coordinates, const History<Dim>& committed,
+                                const Reach& reach) const;
 
   /// Slave points, in the order of Result::points (edge-edge contacts come behind them).
   [[nodiscard]] std::vector<SlavePoint<Dim>> slave_points() const;

@@ -207,6 +207,34 @@ class Evaluators(unittest.TestCase):
         for force in found:
             np.testing.assert_array_equal(force, expected)
 
+    def test_a_pattern_has_all_entries_within_the_reach(self):
+        random, seen = np.random.default_rng(7), 0
+        for make in (plane, space):
+            evaluator, x, frame = make()
+            history = evaluator.initial_history(x)
+            found = evaluator.pattern(x, history, 0.05)
+            self.assertEqual(found.dim, x.shape[1])
+            self.assertEqual(found.couplings.shape[1], 2)
+            indices, indptr = found.csr()
+            rows = np.repeat(np.arange(x.size), np.diff(indptr))
+            places = set(zip(rows.tolist(), indices.tolist()))
+            for row in range(x.size):  # ascending, and blocks of nodes
+                own = indices[indptr[row]:indptr[row + 1]]
+                self.assertTrue((np.diff(own) > 0).all())
+                node = row // found.dim
+                nodes = found.columns[found.row_start[node]:found.row_start[node + 1]]
+                np.testing.assert_array_equal(own.reshape(-1, found.dim)[:, 0], found.dim * nodes)
+            for _ in range(20):
+                y = x.copy()
+                way = random.normal(size=x.shape)
+                y[frame:] += (0.049 * way / np.linalg.norm(way, axis=1, keepdims=True))[frame:]
+                tangent = evaluator.evaluate(y, history).tangent
+                seen += len(tangent)
+                self.assertLessEqual(set(zip(tangent["row"].tolist(), tangent["column"].tolist())), places)
+        self.assertGreater(seen, 1000)
+        with self.assertRaisesRegex(osculate.Refused, "motion must be >= 0"):
+            evaluator.pattern(x, history, -1)
+
     def test_automatic_penalties(self):
         normal, shear = osculate.automatic_penalties([(100, 0.25, 2, 1)])
         self.assertAlmostEqual(normal, 10 / (2 / 100))

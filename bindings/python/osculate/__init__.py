@@ -8,7 +8,8 @@ ContactPoint         one contact point, every quantity of the covariant descript
 Element, MaterialPoint   one cell, one point of a material, with its tangent
 """
 from ._contact import (ActiveSet, Closest, ClosestPoints, ClosestStatus, DerivativeCheck, Evaluation, Evaluator,
-                       Feature, History, Multipliers, Status, Surface, automatic_penalties, closest_points, csr)
+                       Feature, History, Multipliers, Pattern, Status, Surface, automatic_penalties,
+                       closest_points, csr)
 from ._check import Comparison, TangentCheck, check, compare, plot_model, tangent
 from ._core import (Arc, Circle, Cone, Cylinder, Line, NurbsCurve, NurbsSurface, Plane, Segment, Sphere, Torus)
 from ._core import version as __version__

@@ -295,6 +295,16 @@ class Evaluation:
     def committed(self) -> History: ...
     def committed_multipliers(self) -> Multipliers: ...
 
+@dataclass(frozen=True)
+class Pattern:
+    dim: int
+    couplings: NDArray[np.int32]
+    row_start: NDArray[np.int32]
+    columns: NDArray[np.int32]
+    point_start: NDArray[np.int32]
+    point_nodes: NDArray[np.int32]
+    def csr(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]: ...
+
 class Evaluator:
     def __init__(self, reference: ArrayLike, *, master: Surface, slave: Surface | None = None, normal: Law,
                  friction: Law | None = None, damping: Law | None = None,
@@ -318,6 +328,7 @@ class Evaluator:
     def evaluate(self, coordinates: ArrayLike, committed: History, active_set: ActiveSet | None = None,
                  multipliers: Multipliers | None = None, *, tangent: bool = True, duration: float = 0.0,
                  relief: float = 0.0, far: bool = False) -> Evaluation: ...
+    def pattern(self, coordinates: ArrayLike, committed: History, motion: float, distance: float = ...) -> Pattern: ...
     def derivative_check(self, coordinates: ArrayLike, committed: History, step: float,
                          active_set: ActiveSet | None = None, multipliers: Multipliers | None = None, *,
                          duration: float = 0.0) -> DerivativeCheck: ...

@@ -62,6 +62,33 @@ class DerivativeCheck:
     passed: bool
 
 
+@dataclass(frozen=True)
+class Pattern:
+    """Where entries of a tangent may be, before it is evaluated (Evaluator.pattern).
+
+    couplings                (n, 2): slave point and facet of the master that it may press on, ascending
+    row_start, columns       in compressed rows the nodes that the forces of a node may depend on
+    point_start, point_nodes likewise of each slave point the nodes that its constraints may be entries of
+    """
+
+    dim: int
+    couplings: np.ndarray
+    row_start: np.ndarray
+    columns: np.ndarray
+    point_start: np.ndarray
+    point_nodes: np.ndarray
+
+    def csr(self):
+        """indices, indptr of coordinates, as of `scipy.sparse.csr_matrix((data, indices, indptr))`."""
+        length = np.diff(self.row_start).astype(np.int64)
+        block = (self.dim * self.columns[:, None].astype(np.int64) + np.arange(self.dim)).ravel()
+        starts = self.dim * np.repeat(self.row_start[:-1].astype(np.int64), self.dim)
+        lengths = np.repeat(self.dim * length, self.dim)
+        indptr = np.concatenate([[0], np.cumsum(lengths)])
+        inside = np.arange(indptr[-1]) - np.repeat(indptr[:-1], lengths)
+        return block[np.repeat(starts, lengths) + inside], indptr
+
+
 class Evaluator(_core.Evaluator):
     """Contact of a slave with a master, for a code that has its own mesh and solver. It changes nothing: all that an
     analysis remembers are values of the host.
@@ -112,6 +139,13 @@ class Evaluator(_core.Evaluator):
         answer = super().predicted(committed, coordinates, guess)
         _laws.reraise()
         return answer
+
+    def pattern(self, coordinates, committed, motion, distance=math.inf):
+        """Pattern that has all entries of tangents at coordinates of which no node is farther than `motion` from these,
+        from this history or (but for contact with itself) one that such evaluations have committed. distance: a promise
+        that points in contact are not farther than this from their place on the master. Mortar (unless tied) and
+        edge-edge contacts are refused."""
+        return Pattern(**super().pattern(coordinates, committed, motion, distance))
 
     def derivative_check(self, coordinates, committed, step, active_set=None, multipliers=None, *, duration=0.0):
         """Whether the tangent is the derivative of the forces: K d along a fixed random direction against central
