@@ -43,7 +43,7 @@ struct Net {
 
 /// Makes them; facets of one type share a net.
 ///
-/// Tested by  tests/unit/pairing/test_reachable.cpp
+/// Tested by  tests/unit/embed/test_pattern.cpp
 template <int Dim>
 class MovingFacets {
  public:
