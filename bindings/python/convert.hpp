@@ -19,6 +19,7 @@ void add_closest_points(py::module_& m);
 void add_contact(py::module_& m);
 void add_contact_point(py::module_& m);
 void add_element(py::module_& m);
+void add_line_search(py::module_& m);
 void add_model_parts(py::module_& m);
 
 /// A dictionary as the reader of model files takes it: with its keys and no lines. Mappings, lists,

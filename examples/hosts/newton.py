@@ -13,43 +13,6 @@ from scipy.sparse.linalg import spsolve
 TOLERANCE = 5e-11           # of the forces out of balance, over the largest forces: that of the model files
 
 
-def zero_between(look, low, high, enough):
-    """The zero of the work between two steps at which its sign differs (Illinois' rule)."""
-    best, low_work, high_work = high, low[1], high[1]
-    for _ in range(20):
-        if abs(best[1]) <= enough:
-            break
-        now = look((low[0] * high_work - high[0] * low_work) / (high_work - low_work))
-        best = min(best, now, key=lambda point: abs(point[1]))
-        if now[1] * low[1] > 0:
-            low, low_work, high_work = now, now[1], high_work / 2
-        else:
-            high, high_work, low_work = now, now[1], low_work / 2
-    return best[0]
-
-
-def line_search(residual_at, before, correction):
-    """How much of a correction to take, by the work of the residual along it: the rule of `osculate run`. Friction and
-    facets make that work a piecewise smooth function, whose zero a whole correction may jump over for ever."""
-    def look(step):
-        residual, branched = residual_at(step)
-        return step, correction @ residual, np.linalg.norm(residual), branched
-
-    start, whole = (0.0, correction @ before, np.linalg.norm(before)), look(1.0)
-    enough, crossed = 0.05 * abs(start[1]), start[1] * whole[1] < 0
-    if whole[3] or whole[2] <= 0.5 * start[2] or abs(whole[1]) <= enough or not crossed and whole[2] <= start[2]:
-        return 1.0          # whole[3]: points jump over a border of their states, and the active set decides
-    if crossed:
-        return zero_between(look, start, whole, enough)
-    best = now = whole
-    for _ in range(10):
-        if now[2] <= start[2]:
-            break
-        now = look(now[0] / 2)
-        best = min(best, now, key=lambda point: point[2])
-    return best[0] if best[2] <= 0.999 * start[2] else 1.0
-
-
 def converged(internal, contact, free):
     """Forces out of balance are small beside the largest ones."""
     scale = max(np.linalg.norm(internal), np.linalg.norm(contact))
@@ -80,7 +43,7 @@ def increment(bodies, contact, history, x, held, motion):
             return (bodies(there, tangent=False) + tried.force.ravel())[free], tried.branched
         step = 1.0
         if iteration > 0 and not now.branched:
-            step = line_search(residual_at, (internal + now.force.ravel())[free], correction[free])
+            step = osculate.line_search(residual_at, (internal + now.force.ravel())[free], correction[free])
         x += step * correction.reshape(x.shape)
         motion = np.zeros_like(motion)
     raise RuntimeError("it did not converge")

@@ -65,7 +65,7 @@ class Increment:
             tried, internal = self.evaluate(unknowns.array_r - step * correction.array_r, False)
             return (internal + tried.force.ravel())[self.free], tried.branched
         if self.search:
-            correction.scale(newton.line_search(residual_at, self.residual, -correction.array_r))
+            correction.scale(osculate.line_search(residual_at, self.residual, -correction.array_r))
 
     def converged(self, snes, iteration, norms):
         done = iteration > 0 and newton.converged(self.internal, self.now.force, self.free)

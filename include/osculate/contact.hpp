@@ -7,5 +7,6 @@
 #include "osculate/derivative_check.hpp"
 #include "osculate/errors.hpp"
 #include "osculate/evaluator.hpp"
+#include "osculate/line_search.hpp"
 #include "osculate/pattern.hpp"
 #include "osculate/version.hpp"

@@ -207,6 +207,26 @@ class Evaluators(unittest.TestCase):
         for force in found:
             np.testing.assert_array_equal(force, expected)
 
+    def test_line_search(self):
+        def residual(step):  # its work along the correction has a kink at 0.25 and a zero at 0.5
+            return np.array([-2 + 4 * step if step > 0.25 else -1.0, 0.1])
+        seen = []
+
+        def look(step):
+            seen.append(step)
+            return residual(step)
+        step = osculate.line_search(look, residual(0), [1.0, 0.0])
+        self.assertLess(abs(residual(step)[0]), 0.05)
+        self.assertGreater(len(seen), 2)
+        self.assertEqual(osculate.line_search(lambda s: (residual(s), True), residual(0), [1, 0]), 1.0)
+        self.assertEqual(osculate.line_search(lambda s: np.array([-0.4, 0]), [-1, 0], [1, 0]), 1.0)
+        half = osculate.line_search(lambda s: None if s > 0.5 else np.array([-0.1, 0]), [-1, 0], [1, 0])
+        self.assertEqual(half, 0.5)
+        with self.assertRaisesRegex(ValueError, "residuals have 3 numbers, and the correction has 2"):
+            osculate.line_search(lambda s: np.zeros(3), [-1, 0], [1, 0])
+        with self.assertRaises(ZeroDivisionError):
+            osculate.line_search(lambda s: 1 / 0, [-1, 0], [1, 0])
+
     def test_a_pattern_has_all_entries_within_the_reach(self):
         random, seen = np.random.default_rng(7), 0
         for make in (plane, space):

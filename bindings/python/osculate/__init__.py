@@ -3,7 +3,7 @@
 run, check, Result   analyses, as the program `osculate` has them; plot_model, tangent, compare
 study                an analysis over values of its parameters
 normal_law, friction_law, material   your own functions as laws
-Evaluator            contact for a code of one's own; closest_points: of millions of points
+Evaluator            contact for a code of one's own, line_search for its solver; closest_points: of millions of points
 ContactPoint         one contact point, every quantity of the covariant description by its name
 Element, MaterialPoint   one cell, one point of a material, with its tangent
 """
@@ -17,6 +17,7 @@ from ._data import DataSet, Parts
 from ._element import Element, ElementParts, MaterialAnswer, MaterialPoint
 from ._errors import AnalysisFailed, InputError, Interrupted, Refused
 from ._laws import friction_law, material, normal_law
+from ._line_search import line_search
 from ._mesh import write_gmsh
 from ._point import ContactPoint, PointParts
 from ._run import Columns, Increment, Result, State, run

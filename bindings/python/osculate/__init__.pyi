@@ -305,6 +305,9 @@ class Pattern:
     point_nodes: NDArray[np.int32]
     def csr(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]: ...
 
+def line_search(residual_at: Callable[[float], Floats | tuple[Floats, bool] | None], before: ArrayLike,
+                correction: ArrayLike) -> float: ...
+
 class Evaluator:
     def __init__(self, reference: ArrayLike, *, master: Surface, slave: Surface | None = None, normal: Law,
                  friction: Law | None = None, damping: Law | None = None,

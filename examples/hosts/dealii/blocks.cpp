@@ -145,36 +145,6 @@ Numbers free_part(Numbers v, const Motion& held) {
   return v;
 }
 
-/// How much of a correction to take: the rule of `osculate run` (examples/hosts/newton.py).
-template <class Look>
-double line_search(const Look& look, double work, double norm) {
-  struct At {
-    double step, work, norm;
-    bool branched;
-  };
-  const auto at = [&](double step) {
-    const auto [w, n, b] = look(step);
-    return At{step, w, n, b};
-  };
-  const At start{0, work, norm, false}, whole = at(1);
-  const double enough = 0.05 * std::abs(work);
-  const bool crossed = work * whole.work < 0;
-  if (whole.branched || whole.norm <= 0.5 * norm || std::abs(whole.work) <= enough ||
-      (!crossed && whole.norm <= norm))
-    return 1;
-  At best = whole, now = whole, low = start, high = whole;
-  for (int i = 0; crossed && i < 20 && std::abs(best.work) > enough; ++i) {
-    now = at((low.step * high.work - high.step * low.work) / (high.work - low.work));
-    if (std::abs(now.work) < std::abs(best.work)) best = now;
-    const bool nearer = now.work * work > 0;  // to the end, not to the start
-    (nearer ? high : low).work /= 2;
-    (nearer ? low : high) = now;
-  }
-  for (int i = 0; !crossed && i < 10 && now.norm > norm; ++i)
-    if ((now = at(now.step / 2)).norm < best.norm) best = now;
-  return crossed || best.norm <= 0.999 * norm ? best.step : 1;
-}
-
 /// One increment by Newton's method; returns the iterations. The first correction starts from where
 /// the increment begins, and the motion enters through the tangent.
 int increment(const Blocks& blocks, const osculate::Evaluator<3>& contact,
@@ -209,10 +179,11 @@ int increment(const Blocks& blocks, const osculate::Evaluator<3>& contact,
       Numbers rest = blocks.forces(there, nullptr);
       rest += as_vector(tried.force());
       rest = free_part(rest, motion);
-      return std::tuple(direction * rest, rest.l2_norm(), tried.branched());
+      return osculate::LinePoint{direction * rest, rest.l2_norm(), tried.branched()};
     };
     const bool search = iteration > 0 && !result.branched();
-    x.add(search ? line_search(look, direction * residual, residual.l2_norm()) : 1.0, correction);
+    const osculate::LinePoint start{direction * residual, residual.l2_norm()};
+    x.add(search ? osculate::line_search(start, look) : 1.0, correction);
     for (auto& [dof, value] : motion) value = 0;
   }
   throw std::runtime_error("it did not converge");
