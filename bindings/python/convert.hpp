@@ -18,6 +18,7 @@ void add_shapes(py::module_& m);
 void add_closest_points(py::module_& m);
 void add_contact(py::module_& m);
 void add_contact_point(py::module_& m);
+void add_domain(py::module_& m);
 void add_element(py::module_& m);
 void add_line_search(py::module_& m);
 void add_model_parts(py::module_& m);

@@ -74,6 +74,7 @@ PYBIND11_MODULE(_core, m) {
   python::add_closest_points(m);
   python::add_contact(m);
   python::add_contact_point(m);
+  python::add_domain(m);
   python::add_element(m);
   python::add_line_search(m);
   python::add_model_parts(m);

@@ -4,6 +4,7 @@ run, check, Result   analyses, as the program `osculate` has them; plot_model, t
 study                an analysis over values of its parameters
 normal_law, friction_law, material   your own functions as laws
 Evaluator            contact for a code of one's own, line_search for its solver; closest_points: of millions of points
+domain               from where a closest point is unique, as `osculate domain`
 ContactPoint         one contact point, every quantity of the covariant description by its name
 Element, MaterialPoint   one cell, one point of a material, with its tangent
 """
@@ -14,6 +15,7 @@ from ._check import Comparison, TangentCheck, check, compare, plot_model, tangen
 from ._core import (Arc, Circle, Cone, Cylinder, Line, NurbsCurve, NurbsSurface, Plane, Segment, Sphere, Torus)
 from ._core import version as __version__
 from ._data import DataSet, Parts
+from ._domain import Domain, domain
 from ._element import Element, ElementParts, MaterialAnswer, MaterialPoint
 from ._errors import AnalysisFailed, InputError, Interrupted, Refused
 from ._laws import friction_law, material, normal_law

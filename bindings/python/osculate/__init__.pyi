@@ -296,6 +296,17 @@ class Evaluation:
     def committed_multipliers(self) -> Multipliers: ...
 
 @dataclass(frozen=True)
+class Domain:
+    facts: dict[str, Any]
+    text: str
+    points: Floats
+    fields: dict[str, Floats]
+    cells: list[tuple[str, NDArray[np.int32], NDArray[np.int32], NDArray[np.int32]]]
+
+def domain(surface: Path | Mapping[str, Any], *, kink: float = 0.01, samples: int = 3000, tolerance: float = 0.01,
+           length: float | None = None, output: Path | None = None, page: Path | None = None) -> Domain: ...
+
+@dataclass(frozen=True)
 class Pattern:
     dim: int
     couplings: NDArray[np.int32]
