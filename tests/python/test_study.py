@@ -97,6 +97,57 @@ class Studies(unittest.TestCase):
                 with contextlib.suppress(ProcessLookupError):
                     os.killpg(process.pid, signal.SIGKILL)
 
+    def test_what_is_done_is_not_run_again(self):
+        with tempfile.TemporaryDirectory() as folder:
+            ran = []  # each row's increments are told
+            sides = [0.1, 0.2]
+
+            def study(sides=sides, outputs=OUTPUTS, model=None, **more):
+                ran.clear()
+                return osculate.study(model or block(), {"side": sides}, outputs, processes=1, folder=folder,
+                                      on_increment=lambda state: ran.append(state.history["c.shear_force"]), **more)
+
+            first = study(resume=True)
+            increments = len(ran)
+            self.assertGreater(increments, 2)
+            self.assertEqual(study(resume=True), first)
+            self.assertEqual(ran, [])
+            self.assertEqual(study(), first)  # anew, unless it is asked for
+            self.assertEqual(len(ran), increments)
+            shear = {"last": lambda result: result.history["c.shear_force"][-1]}
+            self.assertEqual(study(outputs=shear, resume=True).column("status").tolist(), ["done", "done"])
+            self.assertEqual(ran, [])  # other outputs of the same runs
+            study([0.1, 0.3], resume=True)  # another value
+            self.assertEqual(len(ran), increments // 2)
+            study([0.1, 0.3], resume=True, until="weight")  # another option
+            self.assertGreater(len(ran), 0)
+            study([0.1, 0.3], resume=True, model=block(title="another one"))
+            self.assertEqual(len(ran), increments)
+            path = os.path.join(folder, "0001", "summary.json")
+            with open(path) as file:
+                summary = file.read()
+            with open(path, "w") as file:  # as where a run was stopped
+                file.write(summary.replace('"status": "done"', '"status": "stopped"'))
+            study([0.1, 0.3], resume=True, model=block(title="another one"))
+            self.assertEqual(len(ran), increments // 2)
+
+    def test_what_stopped_is_run_again(self):
+        def model(up):
+            steps = [{"name": "rest", "increments": 1, "body_force": [{"on": "block", "fy": -1}]},
+                     {"name": "then", "increments": 1, "body_force": [{"on": "block", "fy": up}]}]
+            return block(steps=steps)
+
+        with tempfile.TemporaryDirectory() as folder:
+            ran = []
+            for _ in range(2):
+                ran.clear()
+                table = osculate.study(model, [{"up": -2}, {"up": 1}], {"force": "c.normal_force"}, processes=1,
+                                       folder=folder, resume=True, on_increment=lambda state: ran.append(state.step))
+                self.assertEqual(table.column("status").tolist(), ["done", "stopped"])
+            self.assertEqual(ran.count("rest"), 1)  # that of the row which stopped
+        with self.assertRaisesRegex(TypeError, "resumed from the folder"):
+            osculate.study(model, [{"up": -2}], {}, resume=True)
+
     def test_bad_input_is_raised(self):
         with self.assertRaisesRegex(osculate.InputError, "unknown parameter 'sid'"):
             osculate.study(block(), {"sid": [1]}, OUTPUTS)

@@ -143,7 +143,7 @@ class Table(list[dict[str, Any]]):
 def study(model: Path | Mapping[str, Any] | Callable[..., Any],
           parameters: Mapping[str, Iterable[Any]] | Iterable[Mapping[str, Any]],
           outputs: Mapping[str, str | Callable[[Result], Any]], processes: int = 2, folder: Path | None = None,
-          **options: Any) -> Table: ...
+          *, resume: bool = False, **options: Any) -> Table: ...
 
 class Line:
     point: list[float]

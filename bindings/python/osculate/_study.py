@@ -1,15 +1,18 @@
 """An analysis over values of its parameters, in several processes."""
+import hashlib
 import itertools
+import json
 import math
 import multiprocessing
 import os
+import pickle
 import threading
 from concurrent.futures import ProcessPoolExecutor
 
 import numpy as np
 
 from ._errors import AnalysisFailed, InputError
-from ._run import run
+from ._run import Result, run
 
 _task = None  # what a process of a pool has to do; set before it is forked, with the lock
 _lock = threading.Lock()
@@ -62,16 +65,100 @@ def _forked(number):
     return _one(_task, number)
 
 
-def _one(task, number):
-    model, points, outputs, folder, options = task
-    values = points[number]
-    if folder is not None:
-        options = {**options, "folder": os.path.join(os.fspath(folder), f"{number:04d}")}
+_WATCHING = {"folder", "threads", "on_increment", "say"}  # options that results do not depend on
+
+
+def _fed(digest, value):
+    """What a value is made of into the digest."""
+    if hasattr(value, "items"):
+        for key, part in value.items():
+            digest.update(f"{key!r}:".encode())
+            _fed(digest, part)
+    elif isinstance(value, (list, tuple)):
+        digest.update(f"[{len(value)}".encode())
+        for part in value:
+            _fed(digest, part)
+    elif isinstance(value, np.ndarray):
+        digest.update(f"{value.dtype}{value.shape}".encode() + np.ascontiguousarray(value).tobytes())
+    elif value is None or isinstance(value, (str, int, float, os.PathLike, np.generic)):
+        digest.update(f"{value!r};".encode())
+    else:
+        digest.update(pickle.dumps(value))
+
+
+def _mark(model, values, options):
+    """Of the model (of a file: its content), the values and the options; None where they cannot be told apart."""
+    digest = hashlib.sha256()
     try:
-        if callable(model):
-            result = run(model(**values), **options)
+        if not hasattr(model, "items"):
+            with open(model, "rb") as file:
+                digest.update(file.read())
         else:
-            result = run(model, parameters=values, **options)
+            _fed(digest, model)
+        _fed(digest, values)
+        _fed(digest, {name: options[name] for name in sorted(options) if name not in _WATCHING})
+    except (OSError, pickle.PicklingError, AttributeError, TypeError):
+        return None
+    return digest.hexdigest()
+
+
+class _Book:
+    """FOLDER/0000.json of a row: the mark of the run that the folder beside it has, written when that is done."""
+
+    def __init__(self, folder, mark):
+        self.path, self.folder, self.mark = folder + ".json", folder, mark
+
+    def result(self):
+        """The result of a run that is done, of the same mark; else None."""
+        try:
+            with open(self.path, encoding="utf-8") as file:
+                known = json.load(file)
+            if self.mark is None or known.get("mark") != self.mark:
+                return None
+            result = Result(self.folder)
+            return result if result.status == "done" else None
+        except (OSError, ValueError):  # InputError, too: there is none, or not a whole one
+            return None
+
+    def begin(self):
+        """The folder is about to have another run."""
+        try:
+            os.remove(self.path)
+        except FileNotFoundError:
+            pass
+
+    def end(self):
+        """Written beside its place and moved there: a row is in the book, or it is not."""
+        with open(self.path + ".part", "w", encoding="utf-8") as file:
+            json.dump({"mark": self.mark}, file)
+        os.replace(self.path + ".part", self.path)
+
+
+def _run_of(model, values, options, folder, resume):
+    """A result of this run: that of the folder, if it is done, else of a new run."""
+    if callable(model):
+        model, parameters = model(**values), {}
+    else:
+        parameters = {"parameters": values}
+    if folder is None:
+        return run(model, **parameters, **options)
+    book = _Book(folder, _mark(model, values, options))
+    known = book.result() if resume else None
+    if known is not None:
+        return known
+    book.begin()
+    result = run(model, folder=folder, **parameters, **options)
+    if result.status == "done":
+        book.end()
+    return result
+
+
+def _one(task, number):
+    model, points, outputs, folder, options, resume = task
+    values = points[number]
+    try:
+        row = None if folder is None else os.path.join(os.fspath(folder), f"{number:04d}")
+        result = _run_of(model, values, options, row, resume)
     except AnalysisFailed as error:
         return {**values, **dict.fromkeys(outputs, math.nan), "status": error.result.status}
     except (InputError, KeyboardInterrupt):
@@ -81,7 +168,7 @@ def _one(task, number):
     return {**values, **_outputs(outputs, result)}
 
 
-def study(model, parameters, outputs, processes=2, folder=None, **options):
+def study(model, parameters, outputs, processes=2, folder=None, *, resume=False, **options):
     """Runs a model for many values of its parameters; returns a Table with a row for each.
 
     model        a path or dictionary as of `run`, whose `parameters` are set; or a function of them that returns one
@@ -90,6 +177,9 @@ def study(model, parameters, outputs, processes=2, folder=None, **options):
     processes    that work beside each other (forked, so that functions may be anything); with more than one each of
                  them has one thread
     folder       rows keep their results in folder/0000, ...; model files need one
+    resume       rows whose folder has a run that is done, of the same model, values and options, are not run again: their
+                 outputs are made of its Result. All others are run anew. Of a model file its content counts, not that of
+                 meshes it names; own functions as laws are others in each process
     options      of `run`
 
     An analysis that fails has NaN as outputs and the status "stopped"; an output that raises is NaN, a row without a
@@ -99,7 +189,9 @@ def study(model, parameters, outputs, processes=2, folder=None, **options):
     points = _points(parameters)
     if folder is None and not callable(model) and not hasattr(model, "items"):
         raise TypeError("a study of a model file needs a folder for its results")
-    task = (model, points, dict(outputs), folder, options)
+    if resume and folder is None:
+        raise TypeError("a study is resumed from the folder of its results")
+    task = (model, points, dict(outputs), folder, options, resume)
     if processes == 1:
         return Table(_one(task, number) for number in range(len(points)))
     if options.get("threads", 1) != 1:
