@@ -99,6 +99,8 @@ class Elements(unittest.TestCase):
         np.testing.assert_array_equal(end["RF"][:, :2].reshape(-1), now.force)
 
     def test_metal_remembers(self):
+        with self.assertRaisesRegex(osculate.InputError, "in space, of a solid, not 'plane_stress'"):
+            MaterialPoint(METAL, element="plane_stress")
         point = MaterialPoint(METAL)
         self.assertEqual(point.state[0], "PEEQ")
         strain = np.outer(np.linspace(0, 3e-3, 7), [1, -0.5, -0.5, 0, 0, 0])  # G = E / 2.6: yields at 200 / (3 G)

@@ -5,6 +5,7 @@ import os
 import shutil
 import subprocess
 import tempfile
+import threading
 import unittest
 
 import numpy as np
@@ -127,6 +128,37 @@ class Runs(unittest.TestCase):
                         (hooke, {"linear_elastic": {"E": 1e4, "nu": 0.3}}))
         for name in ("c.normal_force", "c.shear_force"):
             np.testing.assert_allclose(own.history[name], program.history[name], rtol=1e-9, atol=1e-9)
+
+
+class Threads(unittest.TestCase):
+    def test_each_is_told_of_its_own_errors(self):
+        x = np.array([[0, 0], [4, 0], [1, -0.01], [3, -0.01]])
+
+        def work(error, found):
+            def pressure(gap):
+                barrier.wait(10)  # both are inside of their laws
+                if error is None:
+                    return 0.0, 0.0
+                raise error
+
+            contact = osculate.Evaluator(x, master=osculate.Surface(facets=[("line2", [[0, 1]])]),
+                                         slave=osculate.Surface(facets=[("line2", [[3, 2]])]),
+                                         normal=osculate.normal_law(pressure, lambda gap: 0.0), weight="node")
+            history = contact.initial_history(x)
+            try:
+                contact.evaluate(x, history)
+                found.append(None)
+            except Exception as raised:
+                found.append(raised)
+
+        for errors in ((KeyError("one"), KeyError("other")), (None, KeyError("one"))):
+            barrier, found = threading.Barrier(2), ([], [])
+            threads = [threading.Thread(target=work, args=pair) for pair in zip(errors, found)]
+            for thread in threads:
+                thread.start()
+            for thread in threads:
+                thread.join()
+            self.assertEqual([f[0] for f in found], list(errors))
 
 
 class Compiled(unittest.TestCase):

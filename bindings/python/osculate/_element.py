@@ -167,6 +167,9 @@ class MaterialPoint:
     """
 
     def __init__(self, material, *, base=None, **section):
+        if section.get("element", "solid") != "solid":
+            raise InputError(f"element: a point of a material is one in space, of a solid, not {section['element']!r}; plane "
+                             "stress and strain are those of an Element", key="element")
         corners = [[x, y, z] for z in (0, 1) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))]
         self._core = _one_cell("hex8", corners, material, section, base)
 

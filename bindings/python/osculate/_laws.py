@@ -1,5 +1,6 @@
 """Contact laws and materials that are Python functions: for trying. In C, for using: docs/user_law.md."""
 import ctypes
+import threading
 import types
 
 import numpy as np
@@ -25,7 +26,29 @@ class _FrictionPoint(ctypes.Structure):
 
 _UMAT = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 36, ctypes.c_size_t)
 _kept = []  # what models, evaluators and their copies may call as long as the process lives
-_raised = []  # by such functions, under a C function that cannot pass it on
+
+
+class _Raised:
+    """What such functions have raised, under a C function that cannot pass it on: a thread that calls the library is told
+    of what was raised in itself, and in threads of the library's own, not in other threads of Python."""
+
+    def __init__(self):
+        self._lock, self._errors = threading.Lock(), []
+
+    def add(self, error):
+        with self._lock:
+            self._errors.append((threading.get_ident(), error))
+
+    def take(self):
+        """The first one of this thread's, which forgets all of them; None: there is none."""
+        with self._lock:
+            others = {thread.ident for thread in threading.enumerate()} - {threading.get_ident()}
+            mine = [error for thread, error in self._errors if thread not in others]
+            self._errors = [kept for kept in self._errors if kept[0] in others]
+        return mine[0] if mine else None
+
+
+_raised = _Raised()
 
 
 def _address(prototype, function):
@@ -35,7 +58,7 @@ def _address(prototype, function):
         try:
             function(*arguments)
         except BaseException as error:  # noqa: BLE001: Ctrl-C as well
-            _raised.append(error)
+            _raised.add(error)
 
     _kept.append(prototype(guarded))
     return hex(ctypes.cast(_kept[-1], ctypes.c_void_p).value)
@@ -43,14 +66,13 @@ def _address(prototype, function):
 
 def forget():
     """What was raised in a run or evaluation that has ended in another way."""
-    _raised.clear()
+    _raised.take()
 
 
 def reraise():
     """What a function of the user has raised first, if one has."""
-    if _raised:
-        error = _raised[0]
-        _raised.clear()
+    error = _raised.take()
+    if error is not None:
         raise error
 
 
