@@ -191,8 +191,9 @@ py::tuple tangent(const std::string& model, const py::object& document,
   return py::make_tuple(api::to_text(report), api::to_json(report), passed);
 }
 
-/// What `osculate compare` says: text, whether one lacks something, the largest relative difference,
-/// and of each quantity its name, largest difference, scale, relative difference and time.
+/// What `osculate compare` says: text, whether one lacks something, the largest relative
+/// difference, and of each quantity its name, largest difference, scale, relative difference and
+/// time.
 py::tuple compare(const std::string& a, const std::string& b) {
   api::Comparison found;
   {
