@@ -1,6 +1,5 @@
 #include "osculate/la/condensed.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -11,52 +10,11 @@
 #include <vector>
 
 #include "osculate/la/accuracy.hpp"
+#include "osculate/la/dense_factors.hpp"
+#include "osculate/la/eliminated.hpp"
 
 namespace osculate::la {
 namespace {
-
-/// The dense matrix of the unknowns that may change, scaled by its diagonal.
-class Dense {
- public:
-  /// False: singular; of symmetric kinds also where it is not positive definite.
-  bool factor(Eigen::MatrixXd s, bool symmetric) {
-    symmetric_ = symmetric;
-    scale_.resize(s.rows());
-    for (Eigen::Index i = 0; i < s.rows(); ++i) {
-      const double size = s.row(i).lpNorm<Eigen::Infinity>();
-      if (!(size > 0) || !std::isfinite(size)) return false;
-      scale_[i] = 1 / std::sqrt(size);
-    }
-    s = scale_.asDiagonal() * s * scale_.asDiagonal();
-    Eigen::ArrayXd pivots;
-    if (symmetric) {
-      cholesky_.compute(s);
-      if (cholesky_.info() != Eigen::Success) return false;
-      pivots = cholesky_.matrixLLT().diagonal().array().square();
-    } else {
-      lu_.compute(s);
-      pivots = lu_.matrixLU().diagonal().array().abs();
-    }
-    ratio_ = pivots.minCoeff() / pivots.maxCoeff();
-    return ratio_ > 0;
-  }
-  void solve(Eigen::MatrixXd& b) const {
-    b = scale_.asDiagonal() * b;
-    if (symmetric_)
-      cholesky_.solveInPlace(b);
-    else
-      b = lu_.solve(b);
-    b = scale_.asDiagonal() * b;
-  }
-  [[nodiscard]] double pivot_ratio() const { return ratio_; }
-
- private:
-  Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
-  Eigen::LLT<Eigen::MatrixXd> cholesky_;
-  Eigen::VectorXd scale_;
-  bool symmetric_ = false;
-  double ratio_ = 0;
-};
 
 /// Square roots of the largest entries of rows and columns, 1 for empty ones.
 Eigen::VectorXd scale_of(const SparseMatrix& k, bool symmetric) {
@@ -107,7 +65,8 @@ struct Condensed::Impl {
 
   Mumps whole;
   SchurFactors inside;
-  std::unique_ptr<Dense> dense = std::make_unique<Dense>();
+  Eliminated few{inside};
+  std::unique_ptr<DenseFactors> dense = std::make_unique<DenseFactors>();
   std::vector<Index> changing;
   std::uint64_t pattern = 0;   ///< of the last matrix that was asked about, as a hash
   std::uint64_t too_dear = 0;  ///< the one for which a dense matrix was dearer, or had no room
@@ -227,7 +186,7 @@ bool Condensed::Impl::condense_where_it_fits(const SparseMatrix& k, FactorReport
 
 void Condensed::Impl::forget() {
   inside.forget();
-  dense = std::make_unique<Dense>();
+  dense = std::make_unique<DenseFactors>();
   matrix = {};
 }
 
@@ -274,6 +233,24 @@ FactorReport Condensed::factor(const SparseMatrix& k, std::uint64_t pattern_vers
   report = s.factor_whole(k);
   s.seconds += s.whole.seconds() - before;
   return report;
+}
+
+Eliminated* Condensed::eliminate(const SparseMatrix& k, Symmetry symmetry) {
+  Impl& s = *impl_;
+  constexpr double harmless = 1e-9;
+  const auto begun = std::chrono::steady_clock::now();
+  s.symmetric = symmetry != Symmetry::unsymmetric;
+  s.condensed = false;
+  bool done = false;
+  try {
+    done = s.pays(k, symmetry) && s.inside.factor(k);
+  } catch (const std::bad_alloc&) {
+    s.forget();
+    s.too_dear = s.pattern;
+  }
+  s.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  const bool serves = done && s.inside.negative_pivots() == 0 && s.inside.pivot_ratio() > harmless;
+  return serves ? &s.few : nullptr;
 }
 
 /// Solves with the condensed factors, with one correction where it helps. False: the residual stays
@@ -350,7 +327,7 @@ SolveStatus Condensed::solve_once(Eigen::VectorXd& rhs) {
   return SolveStatus::ok;
 }
 
-double Condensed::seconds() const { return impl_->seconds; }
+double Condensed::seconds() const { return impl_->seconds + impl_->few.seconds(); }
 Condensed::Count Condensed::count() const { return impl_->count; }
 
 }  // namespace osculate::la

@@ -26,6 +26,7 @@ class Condensed final : public LinearSolver {
   void may_change(std::vector<Index> unknowns) override;
   FactorReport factor(const SparseMatrix& k, std::uint64_t pattern_version,
                       Symmetry symmetry) override;
+  Eliminated* eliminate(const SparseMatrix& k, Symmetry symmetry) override;
   SolveStatus solve(Eigen::VectorXd& rhs_in_solution_out) override;
   SolveStatus solve_once(Eigen::VectorXd& rhs_in_solution_out) override;
   SolveStatus solve(Eigen::MatrixXd& rhs_in_solution_out) override;

@@ -53,6 +53,8 @@ struct IterativeWork {
   int given_up = 0;                   ///< matrices that were left to the direct solver
 };
 
+class Eliminated;
+
 /// All that the rest of the program knows of a solver of linear systems. What a solver does not
 /// know (rows of zero pivots, counts of negative ones) it leaves as it is in the report; those
 /// counts decide about stability only where the matrix is of a symmetric kind.
@@ -83,6 +85,11 @@ class LinearSolver {
   /// pattern is compared all the same.
   virtual FactorReport factor(const SparseMatrix& k, std::uint64_t pattern_version,
                               Symmetry symmetry) = 0;
+  /// Where the solver can eliminate all unknowns but those that may change, and that pays: what
+  /// these few see of the rest of `k`. Nothing: it does not.
+  virtual Eliminated* eliminate(const SparseMatrix& /*k*/, Symmetry /*symmetry*/) {
+    return nullptr;
+  }
   /// Replaces the right-hand side by the solution. `failed` without factors or for a wrong size or
   /// a NaN.
   virtual SolveStatus solve(Eigen::VectorXd& rhs_in_solution_out) = 0;

@@ -41,6 +41,23 @@ Eigen::VectorXd multiply_symmetric(const SparseMatrix& k, const Eigen::VectorXd&
   return y;
 }
 
+void take_out(const SparseMatrix& k, std::span<const Index> c, SparseMatrix& out) {
+  std::vector<Index> place(at(k.n), -1);
+  for (std::size_t a = 0; a < c.size(); ++a) place[at(c[a])] = static_cast<Index>(a);
+  out.n = static_cast<Index>(c.size());
+  out.row_start.assign(1, 0);
+  out.column.clear();
+  out.value.clear();
+  for (const Index i : c) {
+    for (Index e = k.row_start[at(i)]; e < k.row_start[at(i) + 1]; ++e)
+      if (const Index j = place[at(k.column[at(e)])]; j >= 0) {
+        out.column.push_back(j);
+        out.value.push_back(k.value[at(e)]);
+      }
+    out.row_start.push_back(static_cast<Index>(out.column.size()));
+  }
+}
+
 double relative_residual(const SparseMatrix& k, const Eigen::VectorXd& x,
                          const Eigen::VectorXd& b) {
   if (k.n == 0) return 0;
@@ -96,6 +113,13 @@ void MatrixBuilder::reserve_block(std::span<const Index> unknowns) {
 void MatrixBuilder::clear() {
   merge();
   std::fill(matrix_.value.begin(), matrix_.value.end(), 0.0);
+}
+
+void MatrixBuilder::clear(std::span<const Index> rows) {
+  merge();
+  for (const Index i : rows)
+    std::fill(matrix_.value.begin() + matrix_.row_start[at(i)],
+              matrix_.value.begin() + matrix_.row_start[at(i) + 1], 0.0);
 }
 
 void MatrixBuilder::add(Index row, Index column, double value) {

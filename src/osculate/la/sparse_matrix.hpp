@@ -31,6 +31,11 @@ struct MatrixPlace {
 /// The same of a symmetric matrix, of which the upper triangle counts for both.
 [[nodiscard]] Eigen::VectorXd multiply_symmetric(const SparseMatrix& k, const Eigen::VectorXd& x);
 
+/// The entries between some unknowns, numbered in their order.
+///
+/// Requires   c sorted, each once, below k.n
+void take_out(const SparseMatrix& k, std::span<const Index> c, SparseMatrix& out);
+
 /// How well x solves K x = b.
 ///
 /// Formula    |b - K x| / |b| in the Euclidean norm; 0 for b = 0 and x = 0
@@ -53,6 +58,8 @@ class MatrixBuilder {
   void reserve_block(std::span<const Index> rows, std::span<const Index> columns);
   /// Sets all values to zero; the pattern stays (that of entries kept aside included).
   void clear();
+  /// The same in some rows alone: what was added to others is still there.
+  void clear(std::span<const Index> rows);
   /// Entries outside the pattern are kept aside until `finish`.
   void add(Index row, Index column, double value);
   /// Adds a dense block, entry by entry as `add` does, but searches hardly at all: columns that are

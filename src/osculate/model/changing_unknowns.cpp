@@ -9,21 +9,29 @@ namespace osculate::model {
 namespace {
 
 template <int Dim>
+bool is_linear(const BasicBulkSection<Dim>& section) {
+  return section.section.kinematics == solid::Kinematics::small &&
+         material::linear(section.section.law);
+}
+
+template <int Dim>
 void mark_cells(const BasicModel<Dim>& model, Marks<Dim>& marks) {
-  for (const BasicBulkSection<Dim>& section : model.sections) {
-    const bool linear = section.section.kinematics == solid::Kinematics::small &&
-                        material::linear(section.section.law);
+  for (const BasicBulkSection<Dim>& section : model.sections)
     for (const mesh::CellRef& cell : section.cells) {
-      const std::span<const Index> nodes = cell_nodes(model.mesh, cell).nodes;
-      const bool turns =
-          std::ranges::any_of(nodes, [&](Index n) { return marks.dofs.body_of(n) >= 0; });
-      if (!linear || turns) marks.nodes(nodes);
-      marks.of_cells = marks.of_cells || !linear;
+      if (!is_constant(model, marks.dofs, section, cell))
+        marks.nodes(cell_nodes(model.mesh, cell).nodes);
+      marks.of_cells = marks.of_cells || !is_linear(section);
     }
-  }
 }
 
 }  // namespace
+
+template <int Dim>
+bool is_constant(const BasicModel<Dim>& model, const BasicDofSpace<Dim>& dofs,
+                 const BasicBulkSection<Dim>& section, const mesh::CellRef& cell) {
+  return is_linear(section) && std::ranges::none_of(cell_nodes(model.mesh, cell).nodes,
+                                                    [&](Index n) { return dofs.body_of(n) >= 0; });
+}
 
 template <int Dim>
 std::vector<Index> changing_unknowns(const BasicModel<Dim>& model, const BasicDofSpace<Dim>& dofs,
@@ -53,6 +61,9 @@ std::vector<Index> changing_unknowns(const BasicModel<Dim>& model, const BasicDo
   return out;
 }
 
+template bool is_constant(const Model&, const DofSpace&, const BulkSection&, const mesh::CellRef&);
+template bool is_constant(const Model3&, const DofSpace3&, const BulkSection3&,
+                          const mesh::CellRef&);
 template std::vector<Index> changing_unknowns(const Model&, const DofSpace&, Index);
 template std::vector<Index> changing_unknowns(const Model3&, const DofSpace3&, Index);
 

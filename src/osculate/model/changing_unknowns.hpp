@@ -5,6 +5,12 @@
 
 namespace osculate::model {
 
+/// Whether a cell has the same stiffness in all states of a model: its forces are linear in the
+/// displacements, and no rigid body turns its nodes.
+template <int Dim>
+[[nodiscard]] bool is_constant(const BasicModel<Dim>& model, const BasicDofSpace<Dim>& dofs,
+                               const BasicBulkSection<Dim>& section, const mesh::CellRef& cell);
+
 /// Unknowns between which the tangent is likely to change from one iteration to the next: of nodes
 /// in contact pairs, of cells whose forces are not linear in the displacements or that hang on
 /// rigid bodies, of springs, constraints and loads that turn, and of rigid bodies. All other

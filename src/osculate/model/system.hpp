@@ -189,6 +189,18 @@ class BasicSystem {
   [[nodiscard]] bool nearly_symmetric() const;
   /// See model/changing_unknowns.hpp; for la::LinearSolver::may_change.
   [[nodiscard]] std::vector<Index> changing_unknowns() const;
+  // Bodies that are linear, as solve::Condensation sees them (system_constant.cpp).
+  /// Whether cells that are linear (is_constant) do the same to all states of the running step, but
+  /// for forces that are linear in the displacements.
+  [[nodiscard]] bool stays_linear() const;
+  /// Evaluations leave out these cells, and tell of entries between unknowns that may change alone;
+  /// others are of no use then. Requires a tangent that was evaluated in whole before.
+  void leave_out_constant(bool on);
+  /// Makes a tangent of these cells alone, of the entries between unknowns that may change.
+  void assemble_constant(const State& committed, double fraction);
+  /// Their forces on the unknowns in a trial state.
+  [[nodiscard]] Eigen::VectorXd constant_forces(const State& committed, const Trial& trial,
+                                                double fraction);
   /// See model/unknown_places.hpp; for la::LinearSolver::place.
   [[nodiscard]] la::Places unknown_places() const;
 

@@ -58,7 +58,7 @@ template <int Dim>
 BasicSystem<Dim>::Impl::Impl(const BasicModel<Dim>& m, int threads)
     : model(m),
       dofs(dof_space(m)),
-      bulk(m, std::max(1, threads)),
+      bulk(m, dofs, std::max(1, threads)),
       contact{m},
       constraints(m, dofs.unknowns()),
       springs{m},
@@ -226,7 +226,8 @@ template <int Dim>
 bool BasicSystem<Dim>::Impl::add_bodies(const State& committed, const State& now, double duration,
                                         const CellInertia<Dim>* inertia, Assembly<Dim>& to,
                                         solve::Evaluation& out) {
-  const bool measures = to.with_tangent && resistance.diagonal.size() == 0;
+  const bool measures =
+      to.with_tangent && resistance.diagonal.size() == 0 && bulk.which == Cells::all;
   Eigen::VectorXd at_rest;
   if (measures && on(Term::bulk) && committed.memory.empty() && now.u.isZero(0))
     at_rest.setZero(dofs.dofs());
@@ -266,7 +267,10 @@ void BasicSystem<Dim>::Impl::assemble_terms(const State& committed, const Trial&
   last.clear(dofs.dofs(), constraints.count());
   if (with_tangent) {
     reserve_pattern();
-    builder.clear();
+    if (bulk.which == Cells::all)
+      builder.clear();
+    else
+      builder.clear(changing);
   }
   const std::vector<Vec<Dim>> x = positions(now.u);
   if (motion) motion->begin_increment(committed, fraction, time_between(committed, fraction));

@@ -42,6 +42,7 @@ struct BasicSystem<Dim>::Impl {
   std::deque<ContactStates> recent;         ///< of the running attempt
   double assembly_seconds = 0;              ///< beside those of the terms
   int built = 0;                            ///< how often anew
+  std::vector<Index> changing;              ///< rows of tangents without what is constant
   bool with_stresses = false;               ///< tangents have what stresses do in small strain
   LoadPlaces places = LoadPlaces::strains;  ///< where loads act that follow bodies
   // The running step.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "osculate/solve/arc_length.hpp"
+#include "osculate/solve/condensation.hpp"
 #include "osculate/solve/newton.hpp"
 
 namespace osculate::solve::detail {
@@ -70,15 +71,16 @@ void refuse(const S& system, const typename S::State& committed,
         fail(attempt, Outcome::not_converged, std::move(reason));
 }
 
-/// Newton's method with the corrections of `augment`.
+/// Newton's method with the corrections of `augment`. Iterations that were of no use are `wasted`.
 template <System S>
 [[nodiscard]] NewtonResult<typename S::Trial> solve_increment(
     S& system, const typename S::State& committed, double time, const NewtonOptions& options,
-    la::LinearSolver& solver, const Guess& guess = {}) {
+    la::LinearSolver& solver, Condensation<S>& condensation, int& wasted, const Guess& guess = {}) {
   NewtonOptions first = options;
   if constexpr (Augments<S>)
     if (system.augments_often()) first = loosened(options);
-  NewtonResult<typename S::Trial> attempt = newton(system, committed, time, first, solver, guess);
+  NewtonResult<typename S::Trial> attempt =
+      condensation.newton(system, committed, time, first, solver, guess, wasted);
   if constexpr (Augments<S>)
     augment(system, committed, time, options, solver, attempt, guess.resisted);
   refuse(system, committed, attempt);

@@ -98,21 +98,25 @@ bool worth_resisting(const NewtonResult<typename S::Trial>& attempt, bool last) 
 template <System S>
 NewtonResult<typename S::Trial> attempt_increment(S& system, const typename S::State& committed,
                                                   double target, const NewtonOptions& options,
-                                                  la::LinearSolver& solver, const Guess& guess,
+                                                  la::LinearSolver& solver,
+                                                  Condensation<S>& condensation, const Guess& guess,
                                                   bool last, int& wasted, bool& resisted) {
   using Result = NewtonResult<typename S::Trial>;
   const auto waste = [&](const Result& dropped) {
     wasted += static_cast<int>(dropped.iterations.size());
   };
-  Result attempt = solve_increment(system, committed, target, options, solver, guess);
+  const auto solve = [&](const Guess& from) {
+    return solve_increment(system, committed, target, options, solver, condensation, wasted, from);
+  };
+  Result attempt = solve(guess);
   if (attempt.outcome == Outcome::stopped) return attempt;
   if (attempt.outcome != Outcome::converged && attempt.extrapolated) {
     waste(attempt);
-    attempt = solve_increment(system, committed, target, options, solver);
+    attempt = solve({});
   }
   if (const Prediction other = another_prediction(system, committed, attempt);
       other != Prediction::as_before) {
-    Result next = solve_increment(system, committed, target, options, solver, {{}, 0, 0, other});
+    Result next = solve({{}, 0, 0, other});
     // One that slid for nothing says less of what is wrong than the one before.
     if (other == Prediction::sliding && next.outcome != Outcome::converged)
       std::swap(attempt, next);
@@ -120,8 +124,7 @@ NewtonResult<typename S::Trial> attempt_increment(S& system, const typename S::S
     attempt = std::move(next);
   }
   if (!worth_resisting<S>(attempt, last)) return attempt;
-  Result held = solve_increment(system, committed, target, options, solver,
-                                {{}, 0, 0, Prediction::as_before, true});
+  Result held = solve({{}, 0, 0, Prediction::as_before, true});
   resisted = held.outcome == Outcome::converged;
   waste(resisted ? attempt : held);
   if (resisted) return held;
@@ -145,6 +148,7 @@ struct StepRun {
   StepPosition& position;
   StepResult<State, typename S::Trial>& result;
   int cutbacks = 0, wasted = 0;
+  Condensation<S> condensation{};
   TimeStepTaken time_step{};  ///< the running one
 
   [[nodiscard]] double begin() const {
@@ -225,8 +229,8 @@ NewtonResult<typename S::Trial> attempt_load(StepRun<S>& run, double& target, do
   const auto reach = [&](double until) {
     const Guess guess = may_guess ? position.extrapolation.guess(until - at) : Guess{};
     const bool last = 0.5 * (until - at) < smallest && options.arc_length.use != PathControl::off;
-    return attempt_increment(run.system, run.result.state, until, options.newton, run.solver, guess,
-                             last, run.wasted, resisted);
+    return attempt_increment(run.system, run.result.state, until, options.newton, run.solver,
+                             run.condensation, guess, last, run.wasted, resisted);
   };
   if constexpr (MeetsImpacts<S>)
     return up_to_impact(run.system, run.result.state, at, target, unit, run.wasted, reach);

@@ -278,7 +278,7 @@ bool overshot(const S& system, const Correction& by, int touching,
   if (!e.ok || e.counts.touching() <= touching) return false;
   const double work = by.du.dot(e.residual);
   if (work * by.du.dot(by.residual) >= 0 || std::abs(work) <= far_too_far * by.energy) return false;
-  if constexpr (Resists<S>) return system.stride(by.du) > 1;
+  if constexpr (requires { system.stride(by.du); }) return system.stride(by.du) > 1;
   return true;
 }
 

@@ -66,7 +66,7 @@ void expect_same_in_part(const model::BasicModel<Dim>& m, const model::BulkTerm<
 template <int Dim, class BuiltModel>
 void expect_same(const BuiltModel& built, std::size_t alone) {
   const model::BasicModel<Dim>& m = built.model;
-  const model::BulkTerm<Dim> bulk(m, 2);
+  const model::BulkTerm<Dim> bulk(m, model::dof_space(m), 2);
   const model::ForceBatches<Dim> batches(bulk);
   EXPECT_EQ(batches.others().size(), alone);
   Eigen::VectorXd u(Dim * static_cast<Eigen::Index>(m.reference.size()));
@@ -133,7 +133,10 @@ sections: [{on: b, element: solid, material: soft}]
 steps: [{name: s, increments: 1, prescribe: [{on: b.left, ux: 0, uy: 0, uz: 0}]}]
 )";
   const auto built = built_from(text);
-  EXPECT_GE(model::ForceBatches<3>(model::BulkTerm<3>(built.model, 1)).parts(), 2u);
+  EXPECT_GE(
+      model::ForceBatches<3>(model::BulkTerm<3>(built.model, model::dof_space(built.model), 1))
+          .parts(),
+      2u);
   expect_same<3>(built, 0);
 }
 

@@ -184,8 +184,10 @@ model::State solved(model::System& system, const model::State& from, double unti
                     la::LinearSolver& solver) {
   solve::NewtonOptions options;
   options.residual = 1e-12;
+  solve::Condensation<model::System> condensation;
+  int wasted = 0;
   const solve::NewtonResult<model::Trial> attempt =
-      solve::detail::solve_increment(system, from, until, options, solver);
+      solve::detail::solve_increment(system, from, until, options, solver, condensation, wasted);
   EXPECT_EQ(attempt.outcome, solve::Outcome::converged);
   return system.commit(attempt.trial, until);
 }

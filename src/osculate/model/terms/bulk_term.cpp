@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "osculate/model/changing_unknowns.hpp"
 #include "osculate/model/stopwatch.hpp"
 
 namespace osculate::model {
@@ -15,9 +16,10 @@ constexpr std::size_t tile = 32;  ///< cells of a thread before they are added, 
 }  // namespace
 
 template <int Dim>
-BulkTerm<Dim>::BulkTerm(const BasicModel<Dim>& m, int thread_count)
+BulkTerm<Dim>::BulkTerm(const BasicModel<Dim>& m, const BasicDofSpace<Dim>& dofs, int thread_count)
     : model(m), threads(thread_count) {
   for_each_cell(model, [&](const auto& section, const mesh::CellRef& cell, const CellMemory& of) {
+    (is_constant(model, dofs, section, cell) ? constant : others).push_back(jobs.size());
     jobs.push_back({&section, cell, of});
     linear.add(section, cell_nodes(model.mesh, cell).type);
   });
@@ -43,13 +45,19 @@ template <int Dim>
 bool BulkTerm<Dim>::add(const State& committed, const State& trial, double duration,
                         const CellInertia<Dim>* inertia, Assembly<Dim>& to,
                         solve::Evaluation& out) {
-  for (std::size_t start = 0; start < jobs.size(); start += blocks.size()) {
-    const std::size_t count = std::min(blocks.size(), jobs.size() - start);
+  const std::size_t cells = which == Cells::all        ? jobs.size()
+                            : which == Cells::constant ? constant.size()
+                                                       : others.size();
+  const auto number = [&](std::size_t i) {
+    return which == Cells::all ? i : which == Cells::constant ? constant[i] : others[i];
+  };
+  for (std::size_t start = 0; start < cells; start += blocks.size()) {
+    const std::size_t count = std::min(blocks.size(), cells - start);
     const Stopwatch watch;
 #pragma omp parallel for num_threads(threads) schedule(static)
     for (std::size_t i = 0; i < count; ++i) {
-      evaluate(start + i, trial.u, committed.memory, to.into.memory, duration, to.with_tangent,
-               blocks[i]);
+      evaluate(number(start + i), trial.u, committed.memory, to.into.memory, duration,
+               to.with_tangent, blocks[i]);
     }
     seconds += watch.seconds();
     for (std::size_t i = 0; i < count; ++i) {
@@ -66,7 +74,7 @@ bool BulkTerm<Dim>::add(const State& committed, const State& trial, double durat
       if (!to.with_tangent) continue;
       for (int k = 0; diagonal && k < block.dof_count; ++k)
         (*diagonal)[d[static_cast<std::size_t>(k)]] += std::abs(block.result.tangent(k, k));
-      if (inertia) inertia->add_to(start + i, block.result.tangent);
+      if (inertia) inertia->add_to(number(start + i), block.result.tangent);
       to.add_stiffness(d, block.result.tangent);
     }
   }

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -10,6 +11,10 @@
 #include "osculate/solve/newton.hpp"
 
 namespace osculate::model {
+
+/// Which cells an evaluation is of: `constant` ones have the same stiffness in all of a step
+/// (is_constant).
+enum class Cells : std::uint8_t { all, constant, others };
 
 /// The bodies: internal forces and stiffness of all cells, which are computed in parallel and added
 /// in order.
@@ -29,11 +34,13 @@ struct BulkTerm {
   std::vector<Job> jobs;
   LinearCells<Dim> linear;  ///< by job
   std::vector<BasicBulkBlock<Dim>> blocks;
+  Cells which = Cells::all;                   ///< what `add` is of
+  std::vector<std::size_t> constant, others;  ///< numbers of jobs
   double seconds = 0;
   Eigen::VectorXd* diagonal =
       nullptr;  ///< gets those of tangents added, in size; none: nobody asks
 
-  BulkTerm(const BasicModel<Dim>& m, int thread_count);
+  BulkTerm(const BasicModel<Dim>& m, const BasicDofSpace<Dim>& dofs, int thread_count);
   /// The places of all cells in the matrix.
   void reserve(const BasicDofSpace<Dim>& dofs, la::MatrixBuilder& builder) const;
   /// A cell at the nodal displacements `u` after what its points remember; nothing (no dofs) of one
@@ -51,7 +58,8 @@ struct BulkTerm {
     linear.evaluate(job, model, *j.section, j.cell, u, j.memory.of(memory, next, duration),
                     with_tangent, out);
   }
-  /// False: a cell cannot be evaluated, `out` says why. `inertia` may be null.
+  /// Adds what `which` says. False: a cell cannot be evaluated, `out` says why. `inertia` may be
+  /// null.
   bool add(const State& committed, const State& trial, double duration,
            const CellInertia<Dim>* inertia, Assembly<Dim>& to, solve::Evaluation& out);
   /// What stresses do to the stiffness, of cells of small strain (those of finite strain have it in
