@@ -82,8 +82,8 @@ class Problem:
     def __init__(self):
         lower = Block((-2, 2), (0, 1), (16, 4), 0, 1000, 0.3)
         upper = Block((-1.5, -0.5), (1.01, 1.61), (6, 4), len(lower.points), 2000, 0.3)
-        self.reference = np.vstack([lower.points, upper.points])
-        self.bodies = functools.partial(assembled, [lower, upper], self.reference)
+        self.reference, self.blocks = np.vstack([lower.points, upper.points]), [lower, upper]
+        self.bodies = functools.partial(assembled, self.blocks, self.reference)
         # Facets have their body on the right of the way from the first to the second node.
         top = np.column_stack([lower.node[:-1, -1], lower.node[1:, -1]])
         bottom = np.column_stack([upper.node[1:, 0], upper.node[:-1, 0]])

@@ -5,41 +5,24 @@
 //   blocks [FOLDER]               writes FOLDER/increments.csv and FOLDER/nodes.csv
 //   osculate run blocks.yaml      the same model with the bodies of Osculate
 #include <deal.II/base/quadrature_lib.h>
-#include <deal.II/dofs/dof_handler.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_system.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/fe/mapping_q.h>
 #include <deal.II/grid/grid_generator.h>
-#include <deal.II/lac/dynamic_sparsity_pattern.h>
-#include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/sparse_direct.h>
-#include <deal.II/lac/sparse_matrix.h>
-#include <deal.II/lac/vector.h>
 #include <deal.II/numerics/matrix_tools.h>
 
-#include <fstream>
-#include <iostream>
+#include "output.hpp"
 
-#include "osculate/contact.hpp"
-
-using namespace dealii;
-using Numbers = Vector<double>;
-constexpr unsigned dim = 3;
 constexpr double tolerance = 1e-10;  // of the forces out of balance, over the largest ones
-
-std::span<const double> as_span(const Numbers& v) { return {v.begin(), v.size()}; }
-Numbers as_vector(std::span<const double> v) { return Numbers(v.begin(), v.end()); }
 
 /// W = mu/2 (tr C - 3) - mu ln J + lambda/2 (ln J)^2, by F: P = dW/dF and its change by dF.
 struct NeoHooke {
-  double mu, lambda;
-  Tensor<2, dim> back;  ///< F^-T
-  double pressure = 0;
-  NeoHooke(double young, double poisson)
-      : mu(young / (2 + 2 * poisson)),
-        lambda(young * poisson / ((1 + poisson) * (1 - 2 * poisson))) {}
+  double young, poisson = 0.3, mu = young / (2 + 2 * poisson),
+                lambda = 2 * mu * poisson / (1 - 2 * poisson), pressure = 0;
+  Tensor<2, dim> back{};  ///< F^-T
   Tensor<2, dim> stress(const Tensor<2, dim>& f) {
     back = transpose(invert(f));
     pressure = lambda * std::log(determinant(f));
@@ -102,7 +85,7 @@ class Blocks {
     for (const auto& cell : dofs.active_cell_iterators()) {
       values.reinit(cell);
       cell->get_dof_indices(at);
-      NeoHooke material(cell->center()[2] < 1 ? 1000 : 2000, 0.3);
+      NeoHooke material{cell->center()[2] < 1 ? 1000.0 : 2000.0};
       f = 0, k = 0;
       values[FEValuesExtractors::Vector(0)].get_function_gradients(x, deformation);
       for (const unsigned q : values.quadrature_point_indices()) {
@@ -163,9 +146,8 @@ int increment(const Blocks& blocks, const osculate::Evaluator<3>& contact,
     residual = free_part(residual, motion);
     if (iteration > 0 && residual.l2_norm() <= tolerance * scale) return iteration;
     for (const osculate::Entry& e : result.tangent()) matrix.add(e.row, e.column, e.value);
-    Numbers right = internal;
-    right += as_vector(result.branch_force());
-    right *= -1;
+    Numbers right = as_vector(result.branch_force());
+    right.sadd(-1, -1, internal);
     MatrixTools::apply_boundary_values(motion, matrix, correction, right, false);
     SparseDirectUMFPACK solver;
     solver.initialize(matrix);
@@ -181,46 +163,12 @@ int increment(const Blocks& blocks, const osculate::Evaluator<3>& contact,
       rest = free_part(rest, motion);
       return osculate::LinePoint{direction * rest, rest.l2_norm(), tried.branched()};
     };
-    const bool search = iteration > 0 && !result.branched();
     const osculate::LinePoint start{direction * residual, residual.l2_norm()};
-    x.add(search ? osculate::line_search(start, look) : 1.0, correction);
+    const bool whole = iteration == 0 || result.branched();
+    x.add(whole ? 1.0 : osculate::line_search(start, look), correction);
     for (auto& [dof, value] : motion) value = 0;
   }
   throw std::runtime_error("it did not converge");
-}
-
-/// A row of increments.csv, by the names of columns of history.csv: what contact does to the upper
-/// block.
-std::string row(const Blocks& blocks, int iterations, const osculate::Result<3>& result) {
-  Tensor<1, dim> force;
-  for (unsigned dof = 0; dof < blocks.size(); ++dof)
-    if (blocks.height(dof) > 1.005) force[dof % dim] -= result.force()[dof];
-  double normal = 0, work = 0;
-  int slipping = 0;
-  for (const osculate::ContactPoint<3>& p : result.points()) {
-    normal -= p.weight * p.normal_traction;
-    work += p.friction_work;
-    slipping += p.status == osculate::Status::slip;
-  }
-  std::ostringstream out;
-  out << std::setprecision(17) << iterations << ',' << force[0] << ',' << force[1] << ','
-      << force[2] << ',' << normal << ',' << work << ',' << slipping << '\n';
-  return out.str();
-}
-
-/// Places, displacements and reactions of the nodes.
-void write_nodes(const std::string& path, const Blocks& blocks, const Numbers& x,
-                 const osculate::Result<3>& result) {
-  std::ofstream file(path);
-  file << std::setprecision(17);
-  Numbers displacement = x, reaction = blocks.forces(x, nullptr);
-  displacement -= blocks.reference;
-  reaction += as_vector(result.force());
-  for (unsigned n = 0; n < blocks.size(); n += dim) {
-    for (unsigned i = n; i < n + dim; ++i) file << blocks.reference[i] << ',';
-    for (unsigned i = n; i < n + dim; ++i) file << displacement[i] << ',';
-    for (unsigned i = n; i < n + dim; ++i) file << reaction[i] << (i == n + 2 ? '\n' : ',');
-  }
 }
 
 int main(int argc, char** argv) {
@@ -236,21 +184,16 @@ int main(int argc, char** argv) {
   Numbers x = blocks.reference;
   osculate::History<3> history = contact.initial_history(as_span(x));
   osculate::Result<3> result;
-  std::string rows = "iterations,force_x,force_y,force_z,normal_force,friction_work,slipping\n";
-  std::cout << rows;
+  Output output(blocks.reference);
   for (int i = 0; i < 28; ++i) {
-    const Point<dim> step =
-        i < 4 ? Point<dim>(0, 0, -0.08 / 4) : Point<dim>(0.96 / 24, 0.24 / 24, 0);
+    const Point<dim> step = i < 4 ? Point<dim>(0, 0, -0.02) : Point<dim>(0.04, 0.01, 0);
     Motion motion;
     for (unsigned dof = 0; dof < blocks.size(); ++dof) {
       if (blocks.height(dof) < 1e-9) motion[dof] = 0;
       if (blocks.height(dof) > 1.61 - 1e-9) motion[dof] = step[dof % dim];
     }
-    rows += row(blocks, increment(blocks, contact, history, motion, x, result), result);
-    std::cout << rows.substr(rows.rfind('\n', rows.size() - 2) + 1);
+    output.add(increment(blocks, contact, history, motion, x, result), result);
     history = result.committed();
   }
-  if (argc == 1) return 0;
-  std::ofstream(argv[1] + std::string("/increments.csv")) << rows;
-  write_nodes(argv[1] + std::string("/nodes.csv"), blocks, x, result);
+  if (argc > 1) output.write(argv[1], x, blocks.forces(x, nullptr), result);
 }
