@@ -208,12 +208,13 @@ void prepare(CandidateFilter<Dim>& filter, const Boundary<Dim>& master, const Sl
 template <int Dim>
 void refresh(const CandidateFilter<Dim>& filter, const Boundary<Dim>& master,
              std::type_identity_t<std::span<const Vec<Dim>>> x,
-             const std::vector<search::Box<Dim>>& boxes, FilterBuffers<Dim>& buffers,
+             const std::vector<search::Box<Dim>>& boxes, bool moved, FilterBuffers<Dim>& buffers,
              Tree<Dim>& tree) {
   if (!filter.limited()) return;
+  nodal_normals(filter.parts, x, buffers.normals);
+  if (!moved) return;
   buffers.outlines.clear();
   for (const auto& facet : master.facets) buffers.outlines.push_back(outline(facet, x));
-  nodal_normals(filter.parts, x, buffers.normals);
   plant(buffers.outlines, boxes, filter.distance, tree, buffers.branches);
 }
 
@@ -308,9 +309,9 @@ template void prepare<2>(CandidateFilter<2>&, const Boundary<2>&, const SlaveSid
 template void prepare<3>(CandidateFilter<3>&, const Boundary<3>&, const SlaveSide<3>&,
                          std::span<const Vec3>, const AreaRule&);
 template void refresh<2>(const CandidateFilter<2>&, const Boundary<2>&, std::span<const Vec2>,
-                         const std::vector<search::Box<2>>&, FilterBuffers<2>&, Tree<2>&);
+                         const std::vector<search::Box<2>>&, bool, FilterBuffers<2>&, Tree<2>&);
 template void refresh<3>(const CandidateFilter<3>&, const Boundary<3>&, std::span<const Vec3>,
-                         const std::vector<search::Box<3>>&, FilterBuffers<3>&, Tree<3>&);
+                         const std::vector<search::Box<3>>&, bool, FilterBuffers<3>&, Tree<3>&);
 template void mean_normals<2>(const CandidateFilter<2>&, const FilterBuffers<2>&,
                               std::vector<Vec2>&);
 template void mean_normals<3>(const CandidateFilter<3>&, const FilterBuffers<3>&,

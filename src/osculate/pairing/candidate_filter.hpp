@@ -87,11 +87,12 @@ struct FilterBuffers {
   std::vector<double> areas;                 ///< of the parts, if they were asked for
   std::vector<std::vector<NodeGradient<Dim>>> area_gradients;
 };
-/// Outlines, normals and tree at `x`; `boxes` are those of the master's facets there.
+/// Outlines, normals and tree at `x`; `boxes` are those of the master's facets there. Outlines and
+/// tree stay as they are if the master has not `moved`.
 template <int Dim>
 void refresh(const CandidateFilter<Dim>& filter, const Boundary<Dim>& master,
              std::type_identity_t<std::span<const Vec<Dim>>> x,
-             const std::vector<search::Box<Dim>>& boxes, FilterBuffers<Dim>& buffers,
+             const std::vector<search::Box<Dim>>& boxes, bool moved, FilterBuffers<Dim>& buffers,
              Tree<Dim>& tree);
 
 /// Unit normals of the slave nodes out of those of their parts, as `nodal_normals`.

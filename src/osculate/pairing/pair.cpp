@@ -116,6 +116,22 @@ void refresh_facets(const FacetSurface& master, Points<3> x, PairEvaluation<3>& 
   facet_boxes(master, x, out.boxes, out.patches);
 }
 
+/// Whether the master is where it was in the evaluation before, of which `at` has its nodes; then
+/// those of this one.
+template <int Dim>
+bool rests(const Boundary<Dim>& master, Points<Dim> x, std::vector<Vec<Dim>>& at) {
+  bool same = !at.empty();
+  std::size_t k = 0;
+  for (const auto& facet : master.facets)
+    for (int i = 0; i < facet.count; ++i, ++k) {
+      const Vec<Dim>& now = x[static_cast<std::size_t>(facet.nodes[static_cast<std::size_t>(i)])];
+      if (k == at.size()) at.push_back(now);
+      same = same && at[k] == now;
+      at[k] = now;
+    }
+  return same;
+}
+
 /// Blocks of the points, and empty ones of a smooth master's facets, each under many slave facets.
 template <int Dim>
 void refresh_blocks(const PairDefinition<Dim>& pair, PairEvaluation<Dim>& out) {
@@ -133,7 +149,10 @@ void refresh(const PairDefinition<Dim>& pair, Points<Dim> x, bool with_tangent,
   const std::size_t n = pair.slave.points.size();
   out.points.resize(n);
   const std::size_t before = out.boxes.size();
-  refresh_facets(pair.master, x, out);
+  if (!rests(pair.master, x, out.master_at)) {
+    refresh_facets(pair.master, x, out);
+    out.planted = false;
+  }
   refresh_blocks(pair, out);
   out.taken_multipliers.resize(has_reentrant_vertices(pair) ? n : 0);
   out.block_nodes = largest_block(pair);
@@ -147,16 +166,20 @@ void refresh(const PairDefinition<Dim>& pair, Points<Dim> x, bool with_tangent,
   out.apart = beyond_search(pair, x, out.boxes);
   if (pair.filter.limited()) {
     // The first evaluation gives the tree its shape, so that it does not depend on when they met.
-    if (!out.apart || out.tree.size() != out.boxes.size())
-      refresh(pair.filter, pair.master, x, out.boxes, out.filter, out.tree);
+    if (!out.apart || out.tree.size() != out.boxes.size()) {
+      refresh(pair.filter, pair.master, x, out.boxes, !out.planted, out.filter, out.tree);
+      out.planted = true;
+    }
     mean_normals(pair.filter, out.filter, out.normals);
     return;
   }
   point_normals<Dim>(pair.slave, x, out.normals);
+  if (out.planted) return;
   if (before == out.boxes.size() && before > 0)
     out.tree.refit(out.boxes);
   else
     out.tree = Tree<Dim>(out.boxes);
+  out.planted = true;
 }
 std::array<Index, 2> neighbours(const Facet& facet) { return {facet.prev, facet.next}; }
 const auto& neighbours(const SurfaceFacet& facet) { return facet.neighbour; }

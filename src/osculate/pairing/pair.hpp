@@ -229,7 +229,9 @@ struct PairEvaluation {
   int block_nodes = 0;        ///< of the largest block there can be
   std::vector<double> areas;  ///< of the slave's points, if they change
   std::vector<std::vector<NodeGradient<Dim>>> area_gradients;
-  std::vector<Vec<Dim>> normals;  ///< of the slave at its points
+  std::vector<Vec<Dim>> normals;    ///< of the slave at its points
+  std::vector<Vec<Dim>> master_at;  ///< nodes of the master's facets where boxes and patches are of
+  bool planted = false;             ///< tree and outlines are of there, too
   std::vector<search::Box<Dim>> boxes;
   std::vector<GregoryPoints> patches;  ///< of the master's facets; empty where none is smooth
   Tree<Dim> tree;

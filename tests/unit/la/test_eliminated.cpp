@@ -94,7 +94,7 @@ TEST(Eliminated, SolvesLikeMumps) {
 /// Few rows that change are an update, many a factorisation. Where an update would lose digits, as
 /// when a stiff spring is taken off, it is a factorisation, too.
 TEST(Eliminated, RowsThatChangeAreUpdates) {
-  for (const double stiff : {10.0, 1e10}) {
+  for (const double stiff : {10.0, 1e6}) {
     Block block(Symmetry::unsymmetric);
     ASSERT_NE(block.rest, nullptr);
     for (const Springs& by :
