@@ -120,14 +120,18 @@ void refresh_facets(const FacetSurface& master, Points<3> x, PairEvaluation<3>& 
 /// those of this one.
 template <int Dim>
 bool rests(const Boundary<Dim>& master, Points<Dim> x, std::vector<Vec<Dim>>& at) {
-  bool same = !at.empty();
+  bool same = true;
   std::size_t k = 0;
   for (const auto& facet : master.facets)
     for (int i = 0; i < facet.count; ++i, ++k) {
       const Vec<Dim>& now = x[static_cast<std::size_t>(facet.nodes[static_cast<std::size_t>(i)])];
-      if (k == at.size()) at.push_back(now);
-      same = same && at[k] == now;
-      at[k] = now;
+      if (k == at.size()) {
+        at.push_back(now);
+        same = false;
+      } else if (!(at[k] == now)) {
+        at[k] = now;
+        same = false;
+      }
     }
   return same;
 }

@@ -19,7 +19,7 @@ struct Refreshed {
   pairing::Tree<Dim> tree;
   explicit Refreshed(const ContactSample<Dim>& s) {
     pairing::facet_boxes(s.pair.master, s.x, boxes);
-    pairing::refresh<Dim>(s.pair.filter, s.pair.master, s.x, boxes, buffers, tree);
+    pairing::refresh<Dim>(s.pair.filter, s.pair.master, s.x, boxes, true, buffers, tree);
   }
 };
 
