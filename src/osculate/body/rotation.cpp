@@ -32,16 +32,17 @@ constexpr std::array<std::array<double, terms>, 4> power_series() {
   return table;
 }
 
+constexpr std::array<std::array<double, terms>, 4> series = power_series();
+
 /// Requires s <= 1: the terms left out are then below 1e-23.
-Coefficients from_series(double s) {
-  static constexpr auto a = power_series();
+constexpr Coefficients from_series(double s) {
   Coefficients out;
   for (std::size_t m = 0; m < 4; ++m)
     for (std::size_t k = terms; k-- > 0;) {  // Horner
       const auto n = static_cast<double>(k);
-      out.c[m] = out.c[m] * s + a[m][k];
-      if (k >= 1) out.d[m] = out.d[m] * s + n * a[m][k];
-      if (k >= 2) out.dd[m] = out.dd[m] * s + n * (n - 1) * a[m][k];
+      out.c[m] = out.c[m] * s + series[m][k];
+      if (k >= 1) out.d[m] = out.d[m] * s + n * series[m][k];
+      if (k >= 2) out.dd[m] = out.dd[m] * s + n * (n - 1) * series[m][k];
     }
   return out;
 }
@@ -65,7 +66,9 @@ Coefficients in_closed_form(double s) {
 }
 
 Coefficients coefficients(const Vec3& theta) {
+  constexpr Coefficients at_rest = from_series(0);  // of the many nodes of bodies that do not turn
   const double s = theta.squaredNorm();
+  if (s == 0) return at_rest;
   return s <= 1 ? from_series(s) : in_closed_form(s);
 }
 

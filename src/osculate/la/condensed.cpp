@@ -186,6 +186,7 @@ bool Condensed::Impl::condense_where_it_fits(const SparseMatrix& k, FactorReport
 
 void Condensed::Impl::forget() {
   inside.forget();
+  few.forget();
   dense = std::make_unique<DenseFactors>();
   matrix = {};
 }

@@ -149,15 +149,28 @@ bool Eliminated::stands() const {
   return impl_->inside.holds_factors() && impl_->inside.count() == impl_->taken;
 }
 
-void Eliminated::keep(const SparseMatrix& k, Symmetry symmetry, std::span<const Index> c) {
+bool Eliminated::keep(const SparseMatrix& k, Symmetry symmetry, std::span<const Index> c) {
   Impl& s = *impl_;
-  s.taken = s.inside.count();
+  if (s.inside.complement().rows() != static_cast<Eigen::Index>(c.size())) {
+    s.taken = -1;
+    return false;
+  }
+  const bool anew = std::exchange(s.taken, s.inside.count()) != s.inside.count();
   s.symmetric = symmetry != Symmetry::unsymmetric;
   s.factors.reset();
   s.constant = s.inside.complement();
   SparseMatrix few;
   take_out(k, c, few);
   add_entries(few, s.symmetric, s.constant);
+  return anew;
+}
+
+void Eliminated::forget() {
+  Impl& s = *impl_;
+  s.taken = -1;
+  s.factors.reset();
+  for (Eigen::MatrixXd* const m : {&s.constant, &s.changes, &s.along}) m->resize(0, 0);
+  s.first = s.now = {};
 }
 
 const Eigen::MatrixXd& Eliminated::constant() const { return impl_->constant; }
@@ -186,7 +199,8 @@ FactorReport Eliminated::factor(const SparseMatrix& k, std::uint64_t /*pattern_v
   const Stopwatch watch(s.seconds);
   FactorReport report;
   report.whole = false;
-  report.factor_entries = std::int64_t{k.n} * k.n;
+  report.factor_entries =
+      std::int64_t{k.n} * k.n;  // no operations: K' alone is no matrix to iterate on
   s.now = k;
   if (!s.update() && !s.factor_all()) {
     report.status = SolveStatus::failed;

@@ -29,8 +29,11 @@ class Eliminated final : public LinearSolver {
 
   /// Whether these are still the factors that `keep` found.
   [[nodiscard]] bool stands() const;
-  /// Takes the entries of C x C that stay the same out of a matrix of all unknowns.
-  void keep(const SparseMatrix& k, Symmetry symmetry, std::span<const Index> c);
+  /// Takes the entries of C x C that stay the same out of a matrix of all unknowns. Whether the
+  /// others have been factored since it did so before.
+  bool keep(const SparseMatrix& k, Symmetry symmetry, std::span<const Index> c);
+  /// Gives the memory back.
+  void forget();
   /// S_CC
   [[nodiscard]] const Eigen::MatrixXd& constant() const;
   /// b_C - K_CI K_II^-1 b_I of a right-hand side of all unknowns.

@@ -1,10 +1,27 @@
 #include <cmath>
+#include <utility>
 
 #include "osculate/model/changing_unknowns.hpp"
 #include "osculate/model/system_impl.hpp"
 #include "osculate/model/temperatures.hpp"
 
 namespace osculate::model {
+namespace {
+
+/// Which cells evaluations are of, for a while.
+class OfCells {
+ public:
+  OfCells(Cells& which, Cells now) : which_(which), before_(std::exchange(which, now)) {}
+  ~OfCells() { which_ = before_; }
+  OfCells(const OfCells&) = delete;
+  OfCells& operator=(const OfCells&) = delete;
+
+ private:
+  Cells& which_;
+  Cells before_;
+};
+
+}  // namespace
 
 template <int Dim>
 bool BasicSystem<Dim>::stays_linear() const {
@@ -22,32 +39,29 @@ void BasicSystem<Dim>::leave_out_constant(bool on) {
 template <int Dim>
 void BasicSystem<Dim>::assemble_constant(const State& committed, double fraction) {
   Impl& s = *impl_;
-  leave_out_constant(true);
+  if (s.changing.empty()) s.changing = changing_unknowns();
   s.builder.clear(s.changing);
   const std::vector<Vec<Dim>> x = s.positions(committed.u);
   s.assembler.set_configuration(x, committed.rigid);
-  s.bulk.which = Cells::constant;
+  const OfCells constant(s.bulk.which, Cells::constant);
   Assembly<Dim> to = s.assembly(true);
   solve::Evaluation out;
   s.bulk.add(committed, committed, s.time_between(committed, fraction), nullptr, to, out);
-  s.bulk.which = Cells::all;
 }
 
 template <int Dim>
 Eigen::VectorXd BasicSystem<Dim>::constant_forces(const State& committed, const Trial& trial,
                                                   double fraction) {
   Impl& s = *impl_;
-  const Cells before = s.bulk.which;
   const std::vector<Vec<Dim>> x = s.positions(trial.state.u);
   s.assembler.set_configuration(x, trial.state.rigid);
   s.last.forces.internal.setZero(s.dofs.dofs());
   warm(s.model, s.step.temperature, fraction, s.last.memory);
-  s.bulk.which = Cells::constant;
+  const OfCells constant(s.bulk.which, Cells::constant);
   Assembly<Dim> to = s.assembly();
   solve::Evaluation out;
   const bool added =
       s.bulk.add(committed, trial.state, s.time_between(committed, fraction), nullptr, to, out);
-  s.bulk.which = before;
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(unknowns());
   if (!added) return Eigen::VectorXd::Constant(unknowns(), std::nan(""));
   forces.head(displacements()) = s.assembler.gather(s.last.forces.internal);

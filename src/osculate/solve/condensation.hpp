@@ -1,5 +1,7 @@
 #pragma once
 #include <algorithm>
+#include <limits>
+#include <new>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -59,6 +61,8 @@ class SeenByFew {
   SeenByFew(const SeenByFew&) = delete;
   SeenByFew& operator=(const SeenByFew&) = delete;
 
+  /// Size of the residual of all unknowns before the first correction, as far as `begin` knows it.
+  [[nodiscard]] double first_residual() const { return first_residual_; }
   /// Finds p. False: it cannot be.
   bool begin(const State& committed, double time) {
     Evaluation others;
@@ -72,6 +76,7 @@ class SeenByFew {
     for (Index a = 0; a < static_cast<Index>(few_.size()); ++a)
       pull[few_[static_cast<std::size_t>(a)]] = of_few[a];
     size_ = pull.size();
+    first_residual_ = pull.norm();
     pull = -pull;
     if (!pull.allFinite() || !rest_.reduce(pull, pull_)) return false;
     pull_ = -pull_;
@@ -161,6 +166,7 @@ class SeenByFew {
   const std::vector<Index>& few_;
   Eigen::VectorXd pull_;  ///< p
   Eigen::Index size_ = 0;
+  double first_residual_ = 0;
   la::SparseMatrix matrix_;
 };
 
@@ -172,7 +178,7 @@ class SeenByFew {
 /// all unknowns.
 ///
 /// Decision   docs/decisions/088-iterations-of-the-few.md
-/// Tested by  tests/unit/solve/test_condensation.cpp, tests/unit/deck/test_condensation.cpp
+/// Tested by  tests/unit/solve/test_condensation.cpp, tests/unit/deck/test_changing_unknowns.cpp
 template <System S>
 class Condensation {
  public:
@@ -186,18 +192,40 @@ class Condensation {
                 const NewtonOptions& options, la::LinearSolver& solver, const Guess& guess,
                 int& dropped) {
     if constexpr (Condenses<S>)
-      if (!guess.resisted && options.residual > 0 && prepare(system, committed, time, solver))
+      if (!guess.resisted && options.residual > 0 && time != given_up_)
         if (std::optional<Result> found =
-                among_few(system, committed, time, options, solver, guess, dropped))
+                where_it_fits(system, committed, time, options, solver, guess, dropped))
           return std::move(*found);
     return solve::newton(system, committed, time, options, solver, guess);
   }
 
+  /// An increment has converged: the few are asked again.
+  void accepted() { given_up_ = std::numeric_limits<double>::quiet_NaN(); }
+
  private:
   Eigen::Index worth_it_;
   la::Eliminated* rest_ = nullptr;
-  bool looked_ = false;  ///< whether it pays in the running step
+  bool looked_ = false;      ///< whether it pays in the running step
+  bool eliminated_ = false;  ///< since the last increment of the few
+  double given_up_ = std::numeric_limits<double>::quiet_NaN();  ///< where the few found no end
   std::vector<Index> few_;
+
+  /// As among_few; nothing also where memory is short of it: all unknowns may do with less.
+  std::optional<Result> where_it_fits(S& system, const typename S::State& committed, double time,
+                                      const NewtonOptions& options, la::LinearSolver& solver,
+                                      const Guess& guess, int& dropped) {
+    try {
+      if (!prepare(system, committed, time, solver)) return std::nullopt;
+      std::optional<Result> found =
+          among_few(system, committed, time, options, solver, guess, dropped);
+      if (!found) given_up_ = time;
+      return found;
+    } catch (const std::bad_alloc&) {
+      if (rest_) rest_->forget();
+      rest_ = nullptr;
+      return std::nullopt;
+    }
+  }
 
   /// Looks once in a step whether the solver eliminates the others.
   bool prepare(S& system, const typename S::State& committed, double time,
@@ -205,7 +233,8 @@ class Condensation {
     if (looked_ && (!rest_ || rest_->stands())) return rest_ != nullptr;
     looked_ = true;
     rest_ = nullptr;
-    if (system.unknowns() < worth_it_ || !system.stays_linear()) return false;
+    if (system.unknowns() < worth_it_ || !system.stays_linear() || solver.asks_for_places())
+      return false;
     few_ = system.changing_unknowns();
     if (few_.empty()) return false;
     Evaluation first;
@@ -214,8 +243,9 @@ class Condensation {
     rest_ = solver.eliminate(system.matrix(), system.symmetry());
     if (!rest_) return false;
     system.assemble_constant(committed, time);
-    rest_->keep(system.matrix(), system.symmetry(), few_);
-    return true;
+    eliminated_ = rest_->keep(system.matrix(), system.symmetry(), few_);
+    if (!rest_->stands()) rest_ = nullptr;
+    return rest_ != nullptr;
   }
 
   /// Nothing: all unknowns are to be iterated on from the beginning.
@@ -238,8 +268,12 @@ class Condensation {
         return std::nullopt;
       }
       if (stopped) result.total.setZero(0);
+      if (!found.extrapolated)
+        found.first_residual = std::max(found.first_residual, few.first_residual());
     }
     result.iterations = std::move(found.iterations);
+    if (!result.iterations.empty()) result.iterations.front().whole = eliminated_;
+    eliminated_ = false;
     result.extrapolated = found.extrapolated;
     result.first_residual = found.first_residual;
     result.first_energy = found.first_energy;
@@ -267,12 +301,12 @@ class Condensation {
   /// Whether what all unknowns say of a solution of the few ends the increment: the tolerance is
   /// met, or the few have ended at rounding, and the others hardly add to that.
   static bool ends(const NewtonOptions& options, double of_few, Result& result) {
-    constexpr double hardly = 2;
+    constexpr double hardly = 2, limit = 1e-3;
     if (!result.evaluation.ok) return false;
     const double residual = detail::relative_residual(result);
     const bool met = residual <= options.residual;
-    const bool rounded =
-        result.precision.round_off && result.evaluation.residual.norm() <= hardly * of_few;
+    const bool rounded = result.precision.round_off && residual <= limit &&
+                         result.evaluation.residual.norm() <= hardly * of_few;
     if (!met && !rounded) return false;
     result.outcome = Outcome::converged;
     result.precision.round_off = !met;

@@ -168,6 +168,7 @@ struct StepRun {
     result.outcome = Outcome::converged;
     result.reason.clear();
     result.last_attempt = {};
+    condensation.accepted();
     result.state = std::move(committed);
     result.increments.push_back({position.at,
                                  cutbacks,
