@@ -336,7 +336,10 @@ py::dict derivative_check(const AnyEvaluator& self, const Numbers& x, const AnyH
 py::dict pattern(const AnyEvaluator& self, const Numbers& x, const AnyHistory& committed,
                  double motion, double distance) {
   Pattern found = with(self, [&]<int Dim>(const Evaluator<Dim>& e) {
-    return e.pattern(coordinates_of<Dim>(x), committed.of<Dim>(), {motion, distance});
+    const auto at = coordinates_of<Dim>(x);
+    const auto& from = committed.of<Dim>();
+    const py::gil_scoped_release others;
+    return e.pattern(at, from, {motion, distance});
   });
   std::vector<Index> couplings;
   for (const Coupling& c : found.couplings) couplings.insert(couplings.end(), {c.point, c.facet});

@@ -296,9 +296,9 @@ osculate_status osculate_add_entries64(const osculate_entry* entries, size_t cou
 
 /* Where entries of the tangent may be, before it is evaluated: for all evaluations at coordinates
  * of which no node is farther than `motion` from these, with this history or, but for contact of a
- * surface with itself, one that such evaluations have committed. More places than will be needed,
- * never fewer. `distance` is a promise of the host's: points in contact are not farther than this
- * from their place on the master; HUGE_VAL: nothing is promised. */
+ * surface with itself or by a search distance, one that such evaluations have committed. More places than will be needed,
+ * never fewer. `distance` is a promise of the host's: points in contact (with friction open ones
+ * that have a place, too) are not farther than this from it; HUGE_VAL: nothing is promised. */
 typedef struct osculate_pattern osculate_pattern;
 osculate_status osculate_pattern_create(const osculate_evaluator* evaluator,
                                         const double* coordinates, size_t size,

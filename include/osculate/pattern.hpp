@@ -24,8 +24,8 @@ struct Coupling {
 ///
 /// Holds      for all evaluations at coordinates of which no node is farther than `reach.motion`
 ///            from those of the pattern, from its history or, but for contact of a surface with
-///            itself, one that such evaluations have committed; with active sets of such
-///            evaluations, or none
+///            itself or by a search distance, one that such evaluations have committed; with active
+///            sets of such evaluations, or none
 /// Tested by  tests/unit/embed/test_pattern.cpp (in random trials)
 struct Pattern {
   int dimension = 0;

@@ -142,8 +142,8 @@ class Evaluator(_core.Evaluator):
 
     def pattern(self, coordinates, committed, motion, distance=math.inf):
         """Pattern that has all entries of tangents at coordinates of which no node is farther than `motion` from these,
-        from this history or (but for contact with itself) one that such evaluations have committed. distance: a promise
-        that points in contact are not farther than this from their place on the master. Mortar (unless tied) and
+        from this history or (but for contact with itself or by a search distance) one that such evaluations have committed. distance: a promise
+        that points in contact (with friction open ones that have a place, too) are not farther than this from it. Mortar (unless tied) and
         edge-edge contacts are refused."""
         return Pattern(**super().pattern(coordinates, committed, motion, distance))
 

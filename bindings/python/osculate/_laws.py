@@ -42,7 +42,8 @@ class _Raised:
     def take(self):
         """The first one of this thread's, which forgets all of them; None: there is none."""
         with self._lock:
-            others = {thread.ident for thread in threading.enumerate()} - {threading.get_ident()}
+            others = {thread.ident for thread in threading.enumerate()
+                      if not isinstance(thread, threading._DummyThread)} - {threading.get_ident()}
             mine = [error for thread, error in self._errors if thread not in others]
             self._errors = [kept for kept in self._errors if kept[0] in others]
         return mine[0] if mine else None

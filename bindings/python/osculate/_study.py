@@ -71,6 +71,7 @@ _WATCHING = {"folder", "threads", "on_increment", "say"}  # options that results
 def _fed(digest, value):
     """What a value is made of into the digest."""
     if hasattr(value, "items"):
+        digest.update(f"{{{len(value)}".encode())
         for key, part in value.items():
             digest.update(f"{key!r}:".encode())
             _fed(digest, part)
@@ -78,7 +79,7 @@ def _fed(digest, value):
         digest.update(f"[{len(value)}".encode())
         for part in value:
             _fed(digest, part)
-    elif isinstance(value, np.ndarray):
+    elif isinstance(value, np.ndarray) and not value.dtype.hasobject:
         digest.update(f"{value.dtype}{value.shape}".encode() + np.ascontiguousarray(value).tobytes())
     elif value is None or isinstance(value, (str, int, float, os.PathLike, np.generic)):
         digest.update(f"{value!r};".encode())
@@ -92,7 +93,7 @@ def _mark(model, values, options):
     try:
         if not hasattr(model, "items"):
             with open(model, "rb") as file:
-                digest.update(file.read())
+                digest.update(file.read() + b"\0values")
         else:
             _fed(digest, model)
         _fed(digest, values)
@@ -113,7 +114,7 @@ class _Book:
         try:
             with open(self.path, encoding="utf-8") as file:
                 known = json.load(file)
-            if self.mark is None or known.get("mark") != self.mark:
+            if self.mark is None or not isinstance(known, dict) or known.get("mark") != self.mark:
                 return None
             result = Result(self.folder)
             return result if result.status == "done" else None

@@ -1,6 +1,9 @@
 // Places of the tangent of hosts in C.
+#include <limits>
+
 #include "osculate/embed/c_call.hpp"
 #include "osculate/embed/c_handles.hpp"
+#include "osculate/errors.hpp"
 
 struct osculate_pattern {
   osculate::Pattern value;
@@ -16,6 +19,8 @@ template <class Number>
 osculate_status fill_csr(const osculate_pattern* pattern, std::span<const Number> row_of,
                          std::span<const Number> column_of, std::size_t rows, int base,
                          Number* row_start, Number* columns, std::size_t* size) {
+  if (rows >= static_cast<std::size_t>(std::numeric_limits<Number>::max()))
+    throw Refused("there are more rows than their numbers can count");
   const CsrPattern<Number> found =
       csr_pattern<Number>(given(pattern, "pattern").value, row_of, column_of,
                           static_cast<Number>(rows), static_cast<Number>(base));

@@ -127,6 +127,7 @@ void Evaluator<Dim>::evaluate(std::span<const double> coordinates, const History
   from.near = !from.predict && !increment.far;
   embed::Evaluation<Dim>& e = *Access::of(out);
   embed::read_points<Dim>(coordinates, d.nodes, e.x);
+  if (e.of != definition_) e.contact = {};  // buffers are of one contact
   e.of = definition_;
   e.committed = Access::of(committed);
   e.active_set = std::move(from);

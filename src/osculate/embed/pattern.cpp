@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "osculate/embed/definition.hpp"
+#include "osculate/errors.hpp"
 #include "osculate/evaluator.hpp"
 #include "osculate/pairing/reachable.hpp"
 
@@ -25,6 +27,8 @@ void compress(Lists& lists, std::vector<Index>& start, std::vector<Index>& all) 
   for (std::vector<Index>& list : lists) {
     make_unique(list);
     all.insert(all.end(), list.begin(), list.end());
+    if (all.size() > static_cast<std::size_t>(std::numeric_limits<Index>::max()))
+      throw Refused("the pattern has more places than numbers of 32 bits can count");
     start.push_back(static_cast<Index>(all.size()));
   }
 }
@@ -140,6 +144,8 @@ CsrPattern<Number> csr_pattern(const Pattern& pattern, std::span<const Number> r
     std::ranges::sort(list);
     list.erase(std::unique(list.begin(), list.end()), list.end());
     out.columns.insert(out.columns.end(), list.begin(), list.end());
+    if (out.columns.size() >= static_cast<std::size_t>(std::numeric_limits<Number>::max() - base))
+      throw Refused("the pattern has more places than its numbers can count: use those of 64 bits");
     out.row_start.push_back(base + static_cast<Number>(out.columns.size()));
   }
   return out;

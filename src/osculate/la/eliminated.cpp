@@ -149,20 +149,19 @@ bool Eliminated::stands() const {
   return impl_->inside.holds_factors() && impl_->inside.count() == impl_->taken;
 }
 
-bool Eliminated::keep(const SparseMatrix& k, Symmetry symmetry, std::span<const Index> c) {
+void Eliminated::keep(const SparseMatrix& k, Symmetry symmetry, std::span<const Index> c) {
   Impl& s = *impl_;
   if (s.inside.complement().rows() != static_cast<Eigen::Index>(c.size())) {
     s.taken = -1;
-    return false;
+    return;
   }
-  const bool anew = std::exchange(s.taken, s.inside.count()) != s.inside.count();
+  s.taken = s.inside.count();
   s.symmetric = symmetry != Symmetry::unsymmetric;
   s.factors.reset();
   s.constant = s.inside.complement();
   SparseMatrix few;
   take_out(k, c, few);
   add_entries(few, s.symmetric, s.constant);
-  return anew;
 }
 
 void Eliminated::forget() {

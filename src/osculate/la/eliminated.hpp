@@ -29,9 +29,8 @@ class Eliminated final : public LinearSolver {
 
   /// Whether these are still the factors that `keep` found.
   [[nodiscard]] bool stands() const;
-  /// Takes the entries of C x C that stay the same out of a matrix of all unknowns. Whether the
-  /// others have been factored since it did so before.
-  bool keep(const SparseMatrix& k, Symmetry symmetry, std::span<const Index> c);
+  /// Takes the entries of C x C that stay the same out of a matrix of all unknowns.
+  void keep(const SparseMatrix& k, Symmetry symmetry, std::span<const Index> c);
   /// Gives the memory back.
   void forget();
   /// S_CC

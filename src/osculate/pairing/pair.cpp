@@ -133,6 +133,8 @@ bool rests(const Boundary<Dim>& master, Points<Dim> x, std::vector<Vec<Dim>>& at
         same = false;
       }
     }
+  same = same && k == at.size();
+  at.resize(k);
   return same;
 }
 

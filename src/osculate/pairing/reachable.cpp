@@ -109,6 +109,9 @@ class ReachSearch {
       if (may_push(at, f, std::ranges::binary_search(found.near, f))) out.facets.push_back(f);
     if (out.facets.empty()) return out;
     if (pair_.friction) {
+      const Index last = committed_.points[at.i].facet;
+      if (last >= 0) found.all.push_back(last);  // also where it is no candidate any more
+      sort_out(found.all);
       add_ways(pair_.master, found.all);
       for (const Index f : found.all) add_nodes(pair_.master.facets[spot(f)], out.further);
     }
@@ -212,7 +215,8 @@ class ReachSearch {
         return d + master_[spot(f)].lever * reach_.motion;
       });
     }
-    if (only_penalty() && pair_.overlap == InitialOverlap::acts)
+    // Friction remembers places of open points, too.
+    if (only_penalty() && !pair_.friction && pair_.overlap == InitialOverlap::acts)
       most = std::min(most, std::max(pair_.depth, onset()));
     return std::min(most, reach_.distance) * (1 + 1e-9);
   }

@@ -23,10 +23,10 @@ struct ReachablePoint {
 };
 
 /// Couplings of slave points and master facets that evaluations may have while no node is farther
-/// than `reach.motion` from `x`, from the history `committed` or (but for contact with itself,
-/// whose search goes as far as a point has gone) one that such evaluations have left behind: a
-/// superset, whatever the nodes do within the reach. Points that cannot come into contact are left
-/// out.
+/// than `reach.motion` from `x`, from the history `committed` or (but for contact with itself
+/// or by a search distance, which goes as far as a point has gone) one that such evaluations have
+/// left behind: a superset, whatever the nodes do within the reach. Points that cannot come into
+/// contact are left out.
 ///
 /// Bounds     all by boxes, control points and cones of normals (moving_facet.hpp). With L_f and
 ///            L_s for how a node's motion d moves places of facet and slave point:

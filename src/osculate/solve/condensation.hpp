@@ -205,8 +205,7 @@ class Condensation {
  private:
   Eigen::Index worth_it_;
   la::Eliminated* rest_ = nullptr;
-  bool looked_ = false;      ///< whether it pays in the running step
-  bool eliminated_ = false;  ///< since the last increment of the few
+  bool looked_ = false;  ///< whether it pays in the running step
   double given_up_ = std::numeric_limits<double>::quiet_NaN();  ///< where the few found no end
   std::vector<Index> few_;
 
@@ -243,7 +242,7 @@ class Condensation {
     rest_ = solver.eliminate(system.matrix(), system.symmetry());
     if (!rest_) return false;
     system.assemble_constant(committed, time);
-    eliminated_ = rest_->keep(system.matrix(), system.symmetry(), few_);
+    rest_->keep(system.matrix(), system.symmetry(), few_);
     if (!rest_->stands()) rest_ = nullptr;
     return rest_ != nullptr;
   }
@@ -272,8 +271,6 @@ class Condensation {
         found.first_residual = std::max(found.first_residual, few.first_residual());
     }
     result.iterations = std::move(found.iterations);
-    if (!result.iterations.empty()) result.iterations.front().whole = eliminated_;
-    eliminated_ = false;
     result.extrapolated = found.extrapolated;
     result.first_residual = found.first_residual;
     result.first_energy = found.first_energy;
