@@ -6,6 +6,7 @@
 
 #include "osculate/core/error.hpp"
 #include "osculate/pairing/combinations.hpp"
+#include "osculate/pairing/master_at.hpp"
 #include "osculate/pairing/mortar.hpp"
 #include "osculate/pairing/placed_points.hpp"
 #include "osculate/pairing/point_block.hpp"
@@ -84,16 +85,6 @@ class Laps {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-template <int Dim>
-bool beyond_search(const PairDefinition<Dim>& pair, Points<Dim> x,
-                   const std::vector<search::Box<Dim>>& boxes) {
-  if (!pair.filter.limited() || pair.filter.own) return false;
-  search::Box<Dim> master, slave;
-  for (const search::Box<Dim>& box : boxes) master.extend(box);
-  for (const Index node : pair.slave.nodes) slave.extend(x[static_cast<std::size_t>(node)]);
-  return master.squared_distance(slave) > pair.filter.distance * pair.filter.distance;
-}
-
 /// Nodes of the largest block there can be.
 template <int Dim>
 int largest_block(const PairDefinition<Dim>& pair) {
@@ -114,28 +105,6 @@ void refresh_facets(const FacetSurface& master, Points<3> x, PairEvaluation<3>& 
   for (std::size_t f = 0; f < out.patches.size(); ++f)
     if (is_smooth(master.facets[f])) out.patches[f] = patch_points(master.facets[f], x);
   facet_boxes(master, x, out.boxes, out.patches);
-}
-
-/// Whether the master is where it was in the evaluation before, of which `at` has its nodes; then
-/// those of this one.
-template <int Dim>
-bool rests(const Boundary<Dim>& master, Points<Dim> x, std::vector<Vec<Dim>>& at) {
-  bool same = true;
-  std::size_t k = 0;
-  for (const auto& facet : master.facets)
-    for (int i = 0; i < facet.count; ++i, ++k) {
-      const Vec<Dim>& now = x[static_cast<std::size_t>(facet.nodes[static_cast<std::size_t>(i)])];
-      if (k == at.size()) {
-        at.push_back(now);
-        same = false;
-      } else if (!(at[k] == now)) {
-        at[k] = now;
-        same = false;
-      }
-    }
-  same = same && k == at.size();
-  at.resize(k);
-  return same;
 }
 
 /// Blocks of the points, and empty ones of a smooth master's facets, each under many slave facets.
