@@ -1,13 +1,13 @@
 #include "osculate/la/eliminated.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <utility>
 
 #include "osculate/la/accuracy.hpp"
 #include "osculate/la/dense_factors.hpp"
 #include "osculate/la/schur.hpp"
+#include "osculate/la/timed.hpp"
 
 namespace osculate::la {
 namespace {
@@ -37,20 +37,6 @@ bool same_row(const SparseMatrix& a, const SparseMatrix& b, Index i) {
   }
   return true;
 }
-
-class Stopwatch {
- public:
-  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
-  ~Stopwatch() {
-    seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count();
-  }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-
- private:
-  double& seconds_;
-  std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
-};
 
 }  // namespace
 
@@ -175,7 +161,7 @@ void Eliminated::forget() {
 const Eigen::MatrixXd& Eliminated::constant() const { return impl_->constant; }
 
 bool Eliminated::reduce(const Eigen::VectorXd& b, Eigen::VectorXd& of_c) {
-  const Stopwatch watch(impl_->seconds);
+  const Timed watch(impl_->seconds);
   Eigen::MatrixXd reduced;
   if (!impl_->inside.reduce(b, reduced)) return false;
   of_c = reduced.col(0);
@@ -183,7 +169,7 @@ bool Eliminated::reduce(const Eigen::VectorXd& b, Eigen::VectorXd& of_c) {
 }
 
 bool Eliminated::expand(const Eigen::VectorXd& x_c, Eigen::VectorXd& x) {
-  const Stopwatch watch(impl_->seconds);
+  const Timed watch(impl_->seconds);
   Eigen::MatrixXd all;
   if (!impl_->inside.expand(x_c, all)) return false;
   x = all.col(0);
@@ -195,7 +181,7 @@ void Eliminated::begin_anew() { impl_->factors.reset(); }
 FactorReport Eliminated::factor(const SparseMatrix& k, std::uint64_t /*pattern_version*/,
                                 Symmetry /*symmetry*/) {
   Impl& s = *impl_;
-  const Stopwatch watch(s.seconds);
+  const Timed watch(s.seconds);
   FactorReport report;
   report.whole = false;
   report.factor_entries =
@@ -211,7 +197,7 @@ FactorReport Eliminated::factor(const SparseMatrix& k, std::uint64_t /*pattern_v
 /// Corrected once where the residual asks for it.
 SolveStatus Eliminated::solve(Eigen::VectorXd& rhs) {
   Impl& s = *impl_;
-  const Stopwatch watch(s.seconds);
+  const Timed watch(s.seconds);
   constexpr double good = 1e-12, good_enough = 1e-8;
   if (!s.factors || rhs.size() != s.now.n || !rhs.allFinite()) return SolveStatus::failed;
   Eigen::MatrixXd x = rhs;

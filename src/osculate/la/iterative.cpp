@@ -2,13 +2,13 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <utility>
 
 #include "osculate/la/condensed.hpp"
 #include "osculate/la/multigrid.hpp"
 #include "osculate/la/preconditioned.hpp"
+#include "osculate/la/timed.hpp"
 
 namespace osculate::la {
 namespace {
@@ -108,21 +108,6 @@ class Exact {
   std::vector<Index> unknowns_;
   CompressedRows columns_;
   std::unique_ptr<Mumps> direct_;
-};
-
-/// Adds the life time of the value to a sum [s].
-class Timed {
- public:
-  explicit Timed(double& sum) : sum_(sum) {}
-  ~Timed() {
-    sum_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count();
-  }
-  Timed(const Timed&) = delete;
-  Timed& operator=(const Timed&) = delete;
-
- private:
-  double& sum_;
-  std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace
