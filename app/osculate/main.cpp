@@ -1,22 +1,33 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "../together.hpp"
 #include "commands.hpp"
+#include "osculate/core/error.hpp"
 #include "osculate/core/memory.hpp"
 #include "osculate/core/version.hpp"
+#include "osculate/io/atomic_file.hpp"
 #include "osculate/la/blas_threads.hpp"
 
 namespace {
 
-int run_program(int argc, char** argv) {
-  using namespace osculate::app;
+using namespace osculate;
+using namespace osculate::app;
+
+/// Commands that several processes run together.
+bool is_shared(const CLI::App& app) {
+  const auto used = app.get_subcommands();
+  return used.empty() || used.front()->get_name() == "run" || used.front()->get_name() == "verify";
+}
+
+int run_command(int argc, char** argv, const model::Together& together) {
   CLI::App app{"Osculate: contact mechanics in the coordinates of the master surface", "osculate"};
   app.set_version_flag("--version",
                        std::string("osculate ") + std::string(osculate::core::version));
   app.require_subcommand(1);
   int exit_code = done;
   add_init(app, exit_code);
-  add_run(app, exit_code);
+  add_run(app, together, exit_code);
   add_study(app, exit_code);
   add_check(app, exit_code);
   add_tangent(app, exit_code);
@@ -36,12 +47,32 @@ int run_program(int argc, char** argv) {
   if (argc > 0 && std::filesystem::path(argv[0]).stem() == "ccx")
     arguments.insert(arguments.begin(), "ccx");
   std::ranges::reverse(arguments);
+  app.parse_complete_callback([&] {
+    if (together.ranks && !is_shared(app))
+      throw core::InputError({}, fmt::format("'osculate {}' is for one process: start it without "
+                                             "mpirun",
+                                             app.get_subcommands().front()->get_name()));
+  });
   try {
     app.parse(arguments);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? done : bad_input;
   }
   return exit_code;
+}
+
+int run_program(int argc, char** argv) {
+  const Joined joined;
+  try {
+    return run_command(argc, argv, joined.together());
+  } catch (const core::InputError&) {  // of all processes
+    throw;
+  } catch (const io::WriteError&) {
+    throw;
+  } catch (const std::exception& error) {
+    joined.end_all(error);
+    throw;
+  }
 }
 
 }  // namespace

@@ -85,9 +85,10 @@ int run(RunFlags& flags) {
 
 }  // namespace
 
-void add_run(CLI::App& app, int& exit_code) {
+void add_run(CLI::App& app, const model::Together& together, int& exit_code) {
   CLI::App* const command = app.add_subcommand("run", "Run the analysis of a model file");
   auto flags = std::make_shared<RunFlags>();
+  flags->options.together = together;
   command->add_option("model", flags->options.model, "Model file (YAML)")->required();
   command->add_option("-o,--output", flags->options.folder,
                       "Result folder (default: MODEL's stem + .results)");

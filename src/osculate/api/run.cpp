@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "osculate/api/agree.hpp"
 #include "osculate/api/recorder.hpp"
 #include "osculate/core/error.hpp"
 #include "osculate/core/memory.hpp"
@@ -119,6 +120,24 @@ model::BasicAnalysisObserver<Dim> observe(Recorder<Dim>& recorder) {
   return observer;
 }
 
+/// An observer whose answers are those of the first process: of the others none has one.
+template <int Dim>
+model::BasicAnalysisObserver<Dim> answering_alike(const core::Ranks* ranks,
+                                                  model::BasicAnalysisObserver<Dim> observer) {
+  if (!ranks) return observer;
+  model::BasicAnalysisObserver<Dim> alike = observer;
+  alike.converged = [ranks, ask = observer.converged](auto& system, const auto& state,
+                                                      const auto& p, auto* record) {
+    return ranks->all(!ask || ask(system, state, p, record));
+  };
+  alike.interrupted = [ranks, ask = observer.interrupted] { return ranks->any(ask && ask()); };
+  alike.harmonic = [ranks, ask = observer.harmonic](auto& system, const auto& state, const auto& p,
+                                                    const auto& part) {
+    return ranks->all(!ask || ask(system, state, p, part));
+  };
+  return alike;
+}
+
 /// What a run says and writes at its beginning.
 template <int Dim>
 void introduce(Recorder<Dim>& recorder, const result::RunIdentity& id) {
@@ -139,20 +158,45 @@ void introduce_restart(Recorder<Dim>& recorder, const result::Checkpoint<Dim>& f
                            from.point.progress.time));
 }
 
+/// What processes beside the first one do: the same analysis, and no files.
+template <int Dim>
+RunOutcome follow(const RunOptions& options, const deck::BasicBuilt<Dim>& built,
+                  const result::Checkpoint<Dim>* from) {
+  model::BasicAnalysisObserver<Dim> observer;
+  observer.interrupted = options.abandoned;
+  const model::BasicAnalysisResult<Dim> result =
+      model::run(built.model, built.options, answering_alike(built.options.ranks, observer),
+                 from ? &from->point : nullptr);
+  RunOutcome outcome;
+  const bool done = result.outcome == solve::Outcome::converged;
+  outcome.status = done ? RunStatus::done : RunStatus::stopped;
+  return outcome;
+}
+
 template <int Dim>
 RunOutcome run_built(const RunOptions& options, const deck::Description& description,
                      deck::BasicBuilt<Dim>& built, const nlohmann::json& owner,
                      std::chrono::steady_clock::time_point start) {
   built.options.threads = options.threads;
   built.options.until = options.until;
-  check_until(options.until, built.model.steps);
+  const core::Ranks* const ranks = options.together.ranks;
+  model::share(options.together, built.options);
+  const bool leads = !ranks || ranks->rank() == 0;
   const std::string folder = result::choose_folder(options.model, options.folder);
-  const result::FolderLock lock(folder, !options.restart);
   const result::RunIdentity id = result::identity(description, built.model.mesh, built.history);
+  std::optional<result::FolderLock> lock;
   std::optional<result::Checkpoint<Dim>> from;
-  if (options.restart) from = result::read_checkpoint<Dim>(folder, id, built.model, options.model);
-  if (!from) result::claim_folder(folder, owner);
-  result::open_folder(folder, options.restart);
+  agree(ranks, [&] {
+    check_until(options.until, built.model.steps);
+    if (leads) lock.emplace(folder, !options.restart);
+    if (options.restart)
+      from = result::read_checkpoint<Dim>(folder, id, built.model, options.model);
+  });
+  agree(ranks, [&] {
+    if (leads && !from) result::claim_folder(folder, owner);
+    if (leads) result::open_folder(folder, options.restart);
+  });
+  if (!leads) return follow(options, built, from ? &*from : nullptr);
   const double seconds_input = seconds_since(start);
   Recorder<Dim> recorder(options, description, built, owner, folder,
                          {options.max_iterations, options.max_minutes, start});
@@ -167,7 +211,8 @@ RunOutcome run_built(const RunOptions& options, const deck::Description& descrip
     };
   model::BasicAnalysisResult<Dim> result;
   try {
-    result = model::run(built.model, built.options, observer, from ? &from->point : nullptr);
+    result = model::run(built.model, built.options, answering_alike(ranks, observer),
+                        from ? &from->point : nullptr);
   } catch (const std::bad_alloc& error) {
     if (!recorder.history) throw;  // of the earlier run nothing has been touched
     result.outcome = solve::Outcome::out_of_memory;
@@ -218,16 +263,20 @@ RunOutcome run(const RunOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   const nlohmann::json owner = result::owner_json(options.model);
   tell_of_reading(options);
-  const deck::Description description =
-      options.document ? deck::parse_model(*options.document, options.model, options.settings)
-                       : deck::read_model(options.model, options.settings);
-  mesh::Mesh nodes_and_cells = deck::load_mesh(description);
-  tell_of_building(options, nodes_and_cells);
-  deck::AnyBuilt any = deck::build_any(description, std::move(nodes_and_cells));
+  deck::Description description;
+  std::optional<deck::AnyBuilt> any;
+  agree(options.together.ranks, [&] {
+    description = options.document
+                      ? deck::parse_model(*options.document, options.model, options.settings)
+                      : deck::read_model(options.model, options.settings);
+    mesh::Mesh nodes_and_cells = deck::load_mesh(description);
+    tell_of_building(options, nodes_and_cells);
+    any = deck::build_any(description, std::move(nodes_and_cells));
+  });
   if (description.check_only)
-    return std::visit([&](const auto& built) { return check_alone(options, built); }, any);
+    return std::visit([&](const auto& built) { return check_alone(options, built); }, *any);
   return std::visit(
-      [&](auto& built) { return run_built(options, description, built, owner, start); }, any);
+      [&](auto& built) { return run_built(options, description, built, owner, start); }, *any);
 }
 
 void rewrite_report(const std::string& folder) {

@@ -33,6 +33,7 @@ struct RunOptions {
   std::string answers{};
   std::string until;  ///< last step to run, inclusive; empty: all
   int threads = 1;
+  model::Together together{};           ///< processes that run it, too; the first one writes
   std::vector<deck::Setting> settings;  ///< parameters of the model file that are set otherwise
   bool restart = false;                 ///< go on from the folder's last checkpoint
   std::function<void(std::string_view)> say;       ///< lines for a person (also in log.txt)

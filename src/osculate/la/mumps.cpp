@@ -59,6 +59,7 @@ struct Mumps::Impl {
   Index n = -1;
   int slack_percent = 30;
   double seconds = 0;
+  const core::Ranks* ranks = nullptr;     ///< of the matrix
   std::vector<int> rows, columns, order;  // one-based triplets; the upper triangle if symmetric
   std::vector<double> values;
 
@@ -75,8 +76,12 @@ struct Mumps::Impl {
 
   void call(int job) {
     id.job = job;
-    dmumps_c(&id);
+    if (ranks)
+      options.shared.call(&id);
+    else
+      dmumps_c(&id);
   }
+  [[nodiscard]] bool agreed(bool holds) const { return ranks ? ranks->all(holds) : holds; }
   void close() {
     if (open) call(end);
     open = analysed = factored = false;
@@ -86,6 +91,7 @@ struct Mumps::Impl {
   }
 
   bool begin(int kind);
+  void order_unknowns(const SparseMatrix& k);
   void set_pattern(const SparseMatrix& k);
   [[nodiscard]] bool same_pattern(const SparseMatrix& k) const;
   Index set_values(const SparseMatrix& k);
@@ -105,16 +111,21 @@ struct Mumps::Impl {
   void refine(const Eigen::VectorXd& rhs, Eigen::VectorXd& x);
 };
 
-bool mumps::open_library(DMUMPS_STRUC_C& id, int kind) {
+namespace {
+
+bool room_for_buffers() {
   constexpr std::size_t buffers = std::size_t{256} << 20U;
-  if (!core::can_allocate(buffers))
-    throw NotEnoughMemory("not enough memory for the linear solver");
+  return core::can_allocate(buffers);
+}
+
+template <class Call>
+bool open_by(DMUMPS_STRUC_C& id, int kind, int communicator, const Call& call) {
   id = {};
-  id.comm_fortran = use_communicator_world;
+  id.comm_fortran = communicator;
   id.par = 1;
   id.sym = kind;
   id.job = start;
-  dmumps_c(&id);
+  call(id);
   if (id.infog[0] < 0) return false;
   id.icntl[error_unit] = id.icntl[warning_unit] = id.icntl[info_unit] = -1;
   id.icntl[print_level] = 0;
@@ -124,10 +135,69 @@ bool mumps::open_library(DMUMPS_STRUC_C& id, int kind) {
   return true;
 }
 
+}  // namespace
+
+bool mumps::open_library(DMUMPS_STRUC_C& id, int kind) {
+  if (!room_for_buffers()) throw NotEnoughMemory("not enough memory for the linear solver");
+  return open_by(id, kind, use_communicator_world, [](DMUMPS_STRUC_C& of) { dmumps_c(&of); });
+}
+
+bool mumps::open_library(DMUMPS_STRUC_C& id, int kind, const SharedMumps& shared,
+                         const core::Ranks& ranks) {
+  if (!ranks.all(room_for_buffers()))
+    throw NotEnoughMemory("not enough memory for the linear solver");
+  if (!open_by(id, kind, shared.communicator, [&](DMUMPS_STRUC_C& of) { shared.call(&of); }))
+    return false;
+  constexpr int by_process = 3;
+  id.icntl[distribution] = by_process;
+  return true;
+}
+
 bool Mumps::Impl::begin(int kind) {
   close();
-  open = open_library(id, kind);
+  open = ranks ? open_library(id, kind, options.shared, *ranks) : open_library(id, kind);
   return open;
+}
+
+/// Puts together what the processes have of the pattern, on the first one.
+SparseMatrix whole_pattern(const SparseMatrix& k) {
+  const core::Ranks& ranks = *k.ranks;
+  const bool first = ranks.rank() == 0;
+  const auto processes = static_cast<std::size_t>(ranks.count());
+  std::vector<int> lengths, columns;
+  for (Index i = 0; i < k.n; ++i) lengths.push_back(k.row_start[at(i) + 1] - k.row_start[at(i)]);
+  std::vector<int> sizes(first ? processes : 0), starts(first ? processes * lengths.size() : 0);
+  const int size = static_cast<int>(k.column.size());
+  ranks.gather({&size, 1}, sizes);
+  ranks.gather(lengths, starts);
+  std::size_t all = 0;
+  for (const int s : sizes) all += static_cast<std::size_t>(s);
+  columns.resize(all);
+  ranks.gather(k.column, columns);
+  SparseMatrix whole;
+  if (!first) return whole;
+  whole.n = k.n;
+  whole.row_start = {0};
+  std::vector<std::size_t> next(processes, 0);
+  for (std::size_t p = 1; p < processes; ++p)
+    next[p] = next[p - 1] + static_cast<std::size_t>(sizes[p - 1]);
+  for (std::size_t i = 0; i < lengths.size(); ++i) {
+    for (std::size_t p = 0; p < processes; ++p)
+      for (int e = 0; e < starts[p * lengths.size() + i]; ++e)
+        whole.column.push_back(columns[next[p]++]);
+    whole.row_start.push_back(static_cast<Index>(whole.column.size()));
+  }
+  return whole;
+}
+
+void Mumps::Impl::order_unknowns(const SparseMatrix& k) {
+  constexpr Index worth_dissecting = 1000;
+  order.clear();
+  if (k.n >= worth_dissecting) order = nested_dissection(ranks ? whole_pattern(k) : k);
+  int given = order.empty() ? 0 : 1;
+  if (ranks) ranks->spread({&given, 1}, 0);
+  id.icntl[ordering] = given;  // minimum degree, or given
+  id.perm_in = order.empty() ? nullptr : order.data();
 }
 
 void Mumps::Impl::set_pattern(const SparseMatrix& k) {
@@ -147,13 +217,10 @@ void Mumps::Impl::set_pattern(const SparseMatrix& k) {
       columns.push_back(k.column[at(e)] + 1);
     }
   id.n = k.n;
-  id.nnz = static_cast<MUMPS_INT8>(rows.size());
-  id.irn = rows.data();
-  id.jcn = columns.data();
-  constexpr Index worth_dissecting = 1000;
-  order = k.n < worth_dissecting ? std::vector<int>{} : nested_dissection(k);
-  id.icntl[ordering] = order.empty() ? 0 : 1;  // minimum degree, or given
-  id.perm_in = order.empty() ? nullptr : order.data();
+  (ranks ? id.nnz_loc : id.nnz) = static_cast<MUMPS_INT8>(rows.size());
+  (ranks ? id.irn_loc : id.irn) = rows.data();
+  (ranks ? id.jcn_loc : id.jcn) = columns.data();
+  order_unknowns(k);
 }
 
 bool Mumps::Impl::same_pattern(const SparseMatrix& k) const {
@@ -171,12 +238,15 @@ bool Mumps::Impl::same_pattern(const SparseMatrix& k) const {
 /// Returns the first row with an entry that is not finite, or -1.
 Index Mumps::Impl::set_values(const SparseMatrix& k) {
   values.clear();
-  for (Index i = 0; i < k.n; ++i)
+  Index bad = k.n;
+  for (Index i = 0; i < k.n && bad == k.n; ++i)
     for (Index e = k.row_start[at(i)]; e < k.row_start[at(i) + 1]; ++e) {
-      if (!std::isfinite(k.value[at(e)])) return i;
+      if (!std::isfinite(k.value[at(e)])) bad = std::min(bad, i);
       if (kept(i, k.column[at(e)])) values.push_back(k.value[at(e)]);
     }
-  id.a = values.data();
+  if (ranks) bad = -static_cast<Index>(ranks->largest(-static_cast<double>(bad)));
+  if (bad < k.n) return bad;
+  (ranks ? id.a_loc : id.a) = values.data();
   return -1;
 }
 
@@ -209,8 +279,13 @@ FactorReport Mumps::Impl::outcome() const {
 FactorReport Mumps::Impl::prepare(const SparseMatrix& k, std::uint64_t wanted_version,
                                   Symmetry wanted) {
   const auto begun = std::chrono::steady_clock::now();
-  const bool stands =
-      analysed && symmetry == wanted && version == wanted_version && n == k.n && same_pattern(k);
+  const bool same_processes = ranks == k.ranks;
+  if (!same_processes) close();
+  ranks = k.ranks;
+  if (ranks && !options.shared.call)
+    return failure(SolveStatus::failed, "there is no linear solver for several processes");
+  const bool stands = agreed(analysed && symmetry == wanted && version == wanted_version &&
+                             n == k.n && same_pattern(k));
   symmetry = wanted;
   version = wanted_version;
   n = k.n;
@@ -257,6 +332,7 @@ Eigen::VectorXd Mumps::Impl::row_scale() const {
   for (std::size_t e = 0; e < values.size(); ++e)
     for (const int i : {rows[e] - 1, columns[e] - 1})
       scale[i] = std::max(scale[i], std::abs(values[e]));
+  if (ranks) ranks->largest({scale.data(), at(n)});
   for (double& s : scale) s = s > 0 ? std::sqrt(s) : 1.0;
   return scale;
 }
@@ -268,6 +344,7 @@ Eigen::VectorXd Mumps::Impl::multiplied(const Eigen::VectorXd& x) const {
     y[i] += values[e] * x[j];
     if (symmetry != Symmetry::unsymmetric && i != j) y[j] += values[e] * x[i];
   }
+  if (ranks) ranks->sum({y.data(), at(n)});
   return y;
 }
 
@@ -288,14 +365,15 @@ Index Mumps::Impl::vanishing_row(const SparseMatrix& k) {
   const double smallest = id.infog[0] < 0 ? 0 : id.rinfog[18];
   if (!begin(symmetry == Symmetry::unsymmetric ? general : pivoted)) return -1;
   set_pattern(k);
-  id.a = values.data();
+  (ranks ? id.a_loc : id.a) = values.data();
   id.icntl[slack] = slack_percent;
   id.icntl[null_pivots] = 1;
   id.cntl[null_pivot_threshold] = -std::max(rounding, near * smallest);  // negative: absolute
   call(analyse);
   if (id.infog[0] >= 0) call(factorise);
   const bool found = id.infog[0] >= 0 && id.infog[27] > 0 && id.pivnul_list != nullptr;
-  const Index row = found ? id.pivnul_list[0] - 1 : -1;
+  Index row = found ? id.pivnul_list[0] - 1 : -1;
+  if (ranks) ranks->spread({&row, 1}, 0);
   close();
   return row;
 }
@@ -306,6 +384,7 @@ SolveStatus Mumps::Impl::substitute(double* rhs, Index count) {
   id.lrhs = n;
   call(back_substitute);
   id.rhs = nullptr;
+  if (ranks) ranks->spread({rhs, at(n) * at(count)}, 0);
   if (id.infog[0] == -13) throw NotEnoughMemory("not enough memory for a solution");
   return id.infog[0] >= 0 ? SolveStatus::ok : SolveStatus::failed;
 }

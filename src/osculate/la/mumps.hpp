@@ -5,11 +5,19 @@
 
 namespace osculate::la {
 
-struct MumpsOptions {
-  int blas_threads = 1;  ///< more than one may change the last bits with the load of the machine
+/// The MUMPS of several processes (libdmumps), which is not linked to this library.
+struct SharedMumps {
+  void (*call)(void* structure) = nullptr;  ///< dmumps_c
+  int communicator = 0;                     ///< as Fortran has it
 };
 
-/// Sparse direct solver (sequential MUMPS with a METIS ordering). The symbolic analysis is kept
+struct MumpsOptions {
+  int blas_threads = 1;  ///< more than one may change the last bits with the load of the machine
+  SharedMumps shared{};  ///< for matrices of several processes (SparseMatrix::ranks)
+};
+
+/// Sparse direct solver (MUMPS with a METIS ordering; the sequential one where all of the matrix is
+/// here). The symbolic analysis is kept
 /// while pattern and symmetry stand. It depends on the pattern alone, so that a solver that has
 /// factored other values before gives the same bits as a new one. Solutions get one step of
 /// refinement where the relative residual is above 1e-12. Several solvers may live at once: one

@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "osculate/la/linear_solver.hpp"
+#include "osculate/la/mumps.hpp"
 
 extern "C" void openblas_set_num_threads(int);
 extern "C" int openblas_get_num_threads(void);
@@ -25,6 +26,7 @@ enum Control {
   scaling = 7,
   slack = 13,
   openmp_threads = 15,
+  distribution = 17,
   schur_wanted = 18,
   null_pivots = 23,
   schur_phase = 25
@@ -67,5 +69,8 @@ class LibraryCall {
 /// Errors     NotEnoughMemory where there is no room for the buffers of the BLAS, which asks the
 ///            system for them until it gets them
 [[nodiscard]] bool open_library(DMUMPS_STRUC_C& id, int kind);
+/// The same of the library of several processes.
+[[nodiscard]] bool open_library(DMUMPS_STRUC_C& id, int kind, const SharedMumps& shared,
+                                const core::Ranks& ranks);
 
 }  // namespace osculate::la::mumps

@@ -72,6 +72,11 @@ Nearby NearbySolutions::resists_all(int iterations) {
          e < k_.row_start[static_cast<std::size_t>(i) + 1]; ++e)
       largest = std::max(largest, std::abs(k_.value[static_cast<std::size_t>(e)]));
     if (largest > 0) root[i] = std::sqrt(largest);
+    if (k_.ranks && largest == 0) root[i] = 0;
+  }
+  if (k_.ranks) {
+    k_.ranks->largest({root.data(), static_cast<std::size_t>(k_.n)});
+    for (double& r : root) r = r > 0 ? r : 1;
   }
   const Eigen::VectorXd given = noise(k_.n), force = given.cwiseProduct(root);
   const double size = given.stableNorm();
@@ -97,6 +102,11 @@ Nearby solve_nearby(const SparseMatrix& k, Symmetry symmetry, LinearSolver& fact
 
 FactorReport factor_symmetric_part(const SparseMatrix& k, std::uint64_t pattern_version,
                                    LinearSolver& solver) {
+  if (k.ranks) {  // the entries across are elsewhere
+    FactorReport none;
+    none.status = SolveStatus::failed;
+    return none;
+  }
   SparseMatrix half = k;  // only its upper triangle counts
   const auto at = [](Index i) { return static_cast<std::size_t>(i); };
   std::vector<Index> next(k.row_start.begin(), k.row_start.end());  // of each row's columns
@@ -114,10 +124,11 @@ FactorReport factor_symmetric_part(const SparseMatrix& k, std::uint64_t pattern_
 int affordable_iterations(const FactorReport& factors, const SparseMatrix& k) {
   constexpr double per_operation = 1.0 / 16e9, per_factor_entry = 9e-9, per_entry = 25e-9;
   constexpr double per_unknown = 5e-8, near = 0.45e-9, far = 1.2e-9, cached = 1.5e6, most = 40;
-  constexpr std::size_t fewest = 10'000;
-  if (!(factors.operations > 0) || k.value.size() < fewest) return 0;
-  const auto in_factors = static_cast<double>(factors.factor_entries),
-             in_matrix = static_cast<double>(k.value.size());
+  constexpr double fewest = 10'000;
+  if (!(factors.operations > 0)) return 0;
+  const auto in_factors = static_cast<double>(factors.factor_entries);
+  const double in_matrix = la::entries(k);
+  if (in_matrix < fewest) return 0;
   const double entries = in_factors + in_matrix;
   const double whole =
       factors.operations * per_operation + in_factors * per_factor_entry + in_matrix * per_entry;

@@ -22,6 +22,7 @@ Eigen::VectorXd multiply(const SparseMatrix& k, const Eigen::VectorXd& x) {
       sum += k.value[at(e)] * x[k.column[at(e)]];
     y[i] = sum;
   }
+  if (k.ranks) k.ranks->sum({y.data(), at(k.n)});
   return y;
 }
 
@@ -38,7 +39,13 @@ Eigen::VectorXd multiply_symmetric(const SparseMatrix& k, const Eigen::VectorXd&
     }
     y[i] += sum;
   }
+  if (k.ranks) k.ranks->sum({y.data(), at(k.n)});
   return y;
+}
+
+double entries(const SparseMatrix& k) {
+  const auto here = static_cast<double>(k.value.size());
+  return k.ranks ? k.ranks->sum(here) : here;
 }
 
 void take_out(const SparseMatrix& k, std::span<const Index> c, SparseMatrix& out) {
@@ -78,6 +85,18 @@ MatrixBuilder::MatrixBuilder(Index n) {
   }
 }
 
+MatrixBuilder::MatrixBuilder(Index n, const core::Ranks* ranks, std::vector<bool> mine)
+    : mine_(std::move(mine)) {
+  matrix_.n = n;
+  matrix_.ranks = ranks;
+  matrix_.row_start.assign(1, 0);
+  for (Index i = 0; i < n; ++i) {
+    if (here(i)) matrix_.column.push_back(i);
+    matrix_.row_start.push_back(static_cast<Index>(matrix_.column.size()));
+  }
+  matrix_.value.assign(matrix_.column.size(), 0.0);
+}
+
 double* MatrixBuilder::find(Index row, Index column) {
   assert(row >= 0 && row < matrix_.n && column >= 0 && column < matrix_.n);
   const auto first = matrix_.column.begin() + matrix_.row_start[at(row)];
@@ -90,20 +109,19 @@ double* MatrixBuilder::find(Index row, Index column) {
 bool MatrixBuilder::has(std::span<const Index> rows, std::span<const Index> columns) {
   for (const Index i : rows)
     for (const Index j : columns)
-      if (i >= 0 && j >= 0 && find(i, j) == nullptr) return false;
+      if (here(i) && j >= 0 && find(i, j) == nullptr) return false;
   return true;
 }
 
 void MatrixBuilder::reserve_block(std::span<const Index> rows, std::span<const Index> columns) {
   if (has(rows, columns)) return;
   const std::size_t begin = block_unknowns_.size();
-  const auto append = [&](std::span<const Index> unknowns) {
-    for (const Index i : unknowns)
-      if (i >= 0) block_unknowns_.push_back(i);
-    return block_unknowns_.size();
-  };
-  const std::size_t between = append(rows);
-  blocks_.push_back({begin, between, append(columns)});
+  for (const Index i : rows)
+    if (here(i)) block_unknowns_.push_back(i);
+  const std::size_t between = block_unknowns_.size();
+  for (const Index j : columns)
+    if (j >= 0) block_unknowns_.push_back(j);
+  blocks_.push_back({begin, between, block_unknowns_.size()});
 }
 
 void MatrixBuilder::reserve_block(std::span<const Index> unknowns) {
@@ -123,6 +141,7 @@ void MatrixBuilder::clear(std::span<const Index> rows) {
 }
 
 void MatrixBuilder::add(Index row, Index column, double value) {
+  if (!here(row)) return;
   if (double* entry = find(row, column))
     *entry += value;
   else
@@ -203,7 +222,7 @@ void MatrixBuilder::add_block(std::span<const Index> rows, std::span<const Index
   order(columns);
   if (order_.empty()) return;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (rows[i] < 0) continue;
+    if (!here(rows[i])) continue;
     for (std::size_t k = 0; k < order_.size(); ++k)
       row_[k] =
           values[static_cast<std::ptrdiff_t>(i) + static_cast<std::ptrdiff_t>(order_[k]) * stride];
@@ -227,7 +246,7 @@ void MatrixBuilder::add_product(std::span<const Index> rows,
   Eigen::Map<Eigen::VectorXd> sum(row_.data(), n);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const auto row = first.row(static_cast<Eigen::Index>(i));
-    if (rows[i] < 0 || row.isZero(0)) continue;
+    if (!here(rows[i]) || row.isZero(0)) continue;
     sum.setZero();
     for (Eigen::Index r = 0; r < rank; ++r)
       if (row[r] != 0.0) sum += row[r] * factor.col(r);
@@ -262,7 +281,7 @@ void MatrixBuilder::merge() {
 void MatrixBuilder::grow_by(std::span<const MatrixPlace> places) {
   merge();
   for (const Place& place : places) {
-    if (find(place.row, place.column) != nullptr) continue;
+    if (!here(place.row) || find(place.row, place.column) != nullptr) continue;
     pending_.push_back(place);
     grown_.push_back(place);
   }
@@ -331,6 +350,7 @@ void MatrixBuilder::grow() {
   });
   SparseMatrix grown;
   grown.n = matrix_.n;
+  grown.ranks = matrix_.ranks;
   grown.row_start.assign(rows + 1, 0);
   std::size_t fresh_at_most = pending_.size();
   for (const Block& b : blocks_) fresh_at_most += (b.columns - b.rows) * (b.end - b.columns);

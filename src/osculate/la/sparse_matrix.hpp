@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "osculate/core/ranks.hpp"
 #include "osculate/core/types.hpp"
 
 namespace osculate::la {
@@ -16,7 +17,13 @@ struct SparseMatrix {
   Index n = 0;
   std::vector<Index> row_start, column;
   std::vector<double> value;
+  /// Null: all of the matrix is here. Otherwise some of its rows, whole ones, each on one of these
+  /// processes, and here those of the others are empty; vectors are whole everywhere.
+  const core::Ranks* ranks = nullptr;
 };
+
+/// Entries on all processes.
+[[nodiscard]] double entries(const SparseMatrix& k);
 
 /// A place in a matrix.
 struct MatrixPlace {
@@ -53,6 +60,9 @@ void take_out(const SparseMatrix& k, std::span<const Index> c, SparseMatrix& out
 class MatrixBuilder {
  public:
   explicit MatrixBuilder(Index n);
+  /// Some rows of the matrix of several processes: what is reserved or added elsewhere is left out.
+  /// `mine` has one for each row.
+  MatrixBuilder(Index n, const core::Ranks* ranks, std::vector<bool> mine);
   /// Adds all pairs of these unknowns to the pattern to come.
   void reserve_block(std::span<const Index> unknowns);
   void reserve_block(std::span<const Index> rows, std::span<const Index> columns);
@@ -98,6 +108,9 @@ class MatrixBuilder {
   struct Block {
     std::size_t rows, columns, end;  ///< in block_unknowns_: rows to columns, columns to end
   };
+  [[nodiscard]] bool here(Index row) const {
+    return row >= 0 && (mine_.empty() || mine_[static_cast<std::size_t>(row)]);
+  }
   [[nodiscard]] double* find(Index row, Index column);
   [[nodiscard]] bool has(std::span<const Index> rows, std::span<const Index> columns);
   [[nodiscard]] bool waits() const { return !blocks_.empty() || !pending_.empty(); }
@@ -110,6 +123,7 @@ class MatrixBuilder {
   void grow();
 
   SparseMatrix matrix_;
+  std::vector<bool> mine_;             ///< by row; empty: all
   std::vector<Block> blocks_;          ///< reserved, not yet in the pattern
   std::vector<Index> block_unknowns_;  ///< of these
   std::vector<Place> pending_;         ///< likewise, one by one

@@ -289,8 +289,7 @@ struct Analysis {
   }
 
   void run_step(const Step& step) {
-    const bool iterates = !step.frequencies && !step.buckling && !step.harmonic && !step.modal;
-    introduce(iterates);
+    introduce(finds_balance(step));
     if (step.frequencies) return find_vibrations(step);
     if (step.buckling) return find_buckling(step);
     if (step.harmonic) return run_harmonic(step);
@@ -328,6 +327,7 @@ struct Analysis {
         done.outcome == solve::Outcome::stopped || done.outcome == solve::Outcome::out_of_memory;
     if (ended) result.message = done.reason;
     if (done.outcome != solve::Outcome::converged && !ended) {
+      system.share_no_more();
       result.failure = diagnose(system, model, step, done);
       result.message = result.failure->message;
       result.last_iterate = done.last_attempt.trial.state;
@@ -379,6 +379,14 @@ bool begin(Analysis<Dim>& a, const BasicResumePoint<Dim>* from) {
 
 }  // namespace
 
+void share(const Together& together, AnalysisOptions& options) {
+  if (!together.ranks) return;
+  options.ranks = together.ranks;
+  options.linear_solver = [shared = together.mumps] {
+    return std::make_unique<la::Mumps>(la::MumpsOptions{.shared = shared});
+  };
+}
+
 template <int Dim>
 BasicAnalysisResult<Dim> run(const BasicModel<Dim>& model, const AnalysisOptions& options,
                              const BasicAnalysisObserver<Dim>& observer,
@@ -392,7 +400,7 @@ BasicAnalysisResult<Dim> run(const BasicModel<Dim>& model, const AnalysisOptions
     if (!model.body_changes.empty()) change_bodies(model, running, *changing);
   }
   const BasicModel<Dim>& now = changing ? *changing : model;
-  Analysis<Dim> a{now, options, observer, {now, options.threads}};
+  Analysis<Dim> a{now, options, observer, {now, options.threads, options.ranks}};
   BasicAnalysisResult<Dim>& result = a.result;
   result.unknowns = a.system.dofs().unknowns();
   a.system.interrupt_by(observer.interrupted);

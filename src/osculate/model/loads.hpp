@@ -181,6 +181,14 @@ struct Step {
 
 /// True for steps over whose duration bodies with a mass move.
 [[nodiscard]] inline bool takes_time(const Step& step) { return step.dynamics || step.modal; }
+/// Steps of increments or time steps from state to state, not of motions along vibrations.
+[[nodiscard]] inline bool finds_balance(const Step& step) {
+  return !step.frequencies && !step.buckling && !step.harmonic && !step.modal;
+}
+/// Steps whose increments are found by Newton's method.
+[[nodiscard]] inline bool iterates(const Step& step) {
+  return finds_balance(step) && !(step.dynamics && step.dynamics->explicit_steps);
+}
 
 /// Fractions of a step at which tables of amplitudes have corners: where the slope changes by more
 /// than a tenth of the steepest slope of the table. The points of a smooth curve are none.

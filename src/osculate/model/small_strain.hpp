@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "osculate/model/model.hpp"
+#include "osculate/model/state.hpp"
 
 namespace osculate::model {
 

@@ -13,8 +13,8 @@
 namespace osculate::model {
 
 template <int Dim>
-BasicSystem<Dim>::BasicSystem(const BasicModel<Dim>& model, int threads)
-    : impl_(std::make_unique<Impl>(model, threads)) {}
+BasicSystem<Dim>::BasicSystem(const BasicModel<Dim>& model, int threads, const core::Ranks* ranks)
+    : impl_(std::make_unique<Impl>(model, threads, ranks)) {}
 template <int Dim>
 BasicSystem<Dim>::~BasicSystem() = default;
 
@@ -46,7 +46,7 @@ const BasicModel<Dim>& BasicSystem<Dim>::model() const {
 
 template <int Dim>
 void BasicSystem<Dim>::build_anew() {
-  auto next = std::make_unique<Impl>(impl_->model, impl_->bulk.threads);
+  auto next = std::make_unique<Impl>(impl_->model, impl_->bulk.threads, impl_->ranks);
   next->enabled = impl_->enabled;
   next->touched = impl_->touched;
   next->asked = impl_->asked;
@@ -79,6 +79,12 @@ void BasicSystem<Dim>::begin_step(const Step& step, const State& committed) {
   if (!impl_->model.pair_changes.empty())  // buffers of ties are no good for points that part
     for (pairing::PairEvaluation<Dim>& contact : impl_->last.contact) contact = {};
   impl_->begin_drivers();
+  impl_->share(iterates(step));
+}
+
+template <int Dim>
+void BasicSystem<Dim>::share_no_more() {
+  impl_->share(false);
 }
 
 template <int Dim>
@@ -218,6 +224,7 @@ BasicState<Dim> BasicSystem<Dim>::commit(const Trial& trial, double fraction) co
     impl_->motion->rebase(state);
   }
   state.fraction = fraction;
+  impl_->bulk.exchange_memory(impl_->last.memory);
   state.memory = impl_->last.memory;
   impl_->contact.look_far(trial.state, positions(trial.state), impl_->last);
   for (std::size_t p = 0; p < impl_->last.contact.size(); ++p) {

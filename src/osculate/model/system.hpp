@@ -62,7 +62,8 @@ class BasicSystem {
   using State = BasicState<Dim>;
   using Trial = BasicTrial<Dim>;
 
-  BasicSystem(const BasicModel<Dim>& model, int threads);
+  /// `ranks`: processes that each have such a system, and the same model; null: none beside this.
+  BasicSystem(const BasicModel<Dim>& model, int threads, const core::Ranks* ranks = nullptr);
   ~BasicSystem();
   BasicSystem(const BasicSystem&) = delete;
   BasicSystem& operator=(const BasicSystem&) = delete;
@@ -75,6 +76,8 @@ class BasicSystem {
   void build_anew();
   /// Fixes what is prescribed and loaded during a step; start values come from `committed`.
   void begin_step(const Step& step, const State& committed);
+  /// Processes do all of the work each from here on, until a step begins.
+  void share_no_more();
   /// The committed state with what the running step needs of it: accelerations and the energies of
   /// its beginning, or none of them in a step without inertia. To be called after `begin_step`.
   [[nodiscard]] State begin_motion(const State& committed);

@@ -55,7 +55,7 @@ template bool needs_unsymmetric(const Model&);
 template bool needs_unsymmetric(const Model3&);
 
 template <int Dim>
-BasicSystem<Dim>::Impl::Impl(const BasicModel<Dim>& m, int threads)
+BasicSystem<Dim>::Impl::Impl(const BasicModel<Dim>& m, int threads, const core::Ranks* of)
     : model(m),
       dofs(dof_space(m)),
       bulk(m, dofs, std::max(1, threads)),
@@ -67,11 +67,27 @@ BasicSystem<Dim>::Impl::Impl(const BasicModel<Dim>& m, int threads)
       assembler(dofs, builder),
       symmetry(needs_unsymmetric(m) ? la::Symmetry::unsymmetric : la::Symmetry::indefinite),
       nearly_symmetric(symmetry == la::Symmetry::unsymmetric && constraints.count() == 0 &&
-                       !is_unsymmetric_but_for_pressures(m)) {
+                       !is_unsymmetric_but_for_pressures(m)),
+      ranks(of) {
   last.contact.resize(model.pairs.size());
   last.memory.resize(memory_size(model));
   touched.assign(model.pairs.size(), false);
   assembler.set_prescribed(std::vector<bool>(static_cast<std::size_t>(dofs.unknowns()), false));
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::share(bool on) {
+  if (!ranks || on == (bulk.ranks != nullptr)) return;
+  bulk.ranks = on ? ranks : nullptr;
+  pattern_reserved = false;
+  if (!on) {
+    builder = la::MatrixBuilder(constraints.end);
+    return;
+  }
+  std::vector<int> owner = node_owners(model, ranks->count());
+  ranks->spread(owner, 0);
+  bulk.shares = shares_of(model, dofs, constraints.count(), owner, ranks->rank(), ranks->count());
+  builder = la::MatrixBuilder(constraints.end, ranks, bulk.shares.rows);
 }
 
 template <int Dim>

@@ -49,8 +49,11 @@ struct BasicSystem<Dim>::Impl {
   Step step;
   std::vector<bool> touched;    ///< by pair, in explicit time integration
   std::function<bool()> asked;  ///< whether iterations are to end
+  const core::Ranks* ranks;     ///< who work on this together; null: this process is alone
 
-  Impl(const BasicModel<Dim>& m, int threads);
+  Impl(const BasicModel<Dim>& m, int threads, const core::Ranks* of);
+  /// Whether the processes share cells and rows from here on, or do all of it each.
+  void share(bool on);
   /// The places of all cells in the matrix.
   void reserve_pattern();
 

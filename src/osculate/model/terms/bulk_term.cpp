@@ -45,12 +45,55 @@ template <int Dim>
 bool BulkTerm<Dim>::add(const State& committed, const State& trial, double duration,
                         const CellInertia<Dim>* inertia, Assembly<Dim>& to,
                         solve::Evaluation& out) {
-  const std::size_t cells = which == Cells::all        ? jobs.size()
-                            : which == Cells::constant ? constant.size()
-                                                       : others.size();
-  const auto number = [&](std::size_t i) {
-    return which == Cells::all ? i : which == Cells::constant ? constant[i] : others[i];
+  std::size_t failed = jobs.size();
+  const bool added = add_cells(committed, trial, duration, inertia, to, out, failed);
+  return ranks ? all_added(failed, to, out) : added;
+}
+
+/// What the others have evaluated; false: a cell of one of them cannot be. The first one counts, as
+/// it would for one process alone.
+template <int Dim>
+bool BulkTerm<Dim>::all_added(std::size_t failed, Assembly<Dim>& to, solve::Evaluation& out) {
+  const auto none = static_cast<double>(jobs.size());
+  const double first = -ranks->largest(-static_cast<double>(failed));
+  if (first < none) {
+    const bool here = static_cast<double>(failed) == first;
+    const int from = static_cast<int>(ranks->largest(here ? ranks->rank() : -1.0));
+    out.ok = false;
+    out.message = ranks->spread(out.message, from);
+    return false;
+  }
+  exchange<Dim>(shares, *ranks, to.into.forces.internal);
+  if (to.inc) exchange<Dim>(shares, *ranks, to.into.predicted);
+  if (diagonal) exchange<Dim>(shares, *ranks, *diagonal);
+  return true;
+}
+
+template <int Dim>
+void BulkTerm<Dim>::exchange_memory(std::vector<double>& memory) const {
+  if (!ranks || memory.empty()) return;
+  std::vector<double> all(memory.size(), core::Ranks::nothing);
+  const auto copy = [&](std::size_t job, const std::vector<double>& from, std::vector<double>& to) {
+    const CellMemory& m = jobs[job].memory;
+    const auto begin = static_cast<std::ptrdiff_t>(m.first);
+    if (!m.removed)
+      std::copy_n(from.begin() + begin, static_cast<std::ptrdiff_t>(m.count), to.begin() + begin);
   };
+  for (const std::size_t job : shares.own_cells) copy(job, memory, all);
+  ranks->sum(all);
+  for (std::size_t job = 0; job < jobs.size(); ++job) copy(job, all, memory);
+}
+
+template <int Dim>
+bool BulkTerm<Dim>::add_cells(const State& committed, const State& trial, double duration,
+                              const CellInertia<Dim>* inertia, Assembly<Dim>& to,
+                              solve::Evaluation& out, std::size_t& failed) {
+  const bool every = !ranks && which == Cells::all;
+  const std::vector<std::size_t>& some = ranks                      ? shares.cells
+                                         : which == Cells::constant ? constant
+                                                                    : others;
+  const std::size_t cells = every ? jobs.size() : some.size();
+  const auto number = [&](std::size_t i) { return every ? i : some[i]; };
   for (std::size_t start = 0; start < cells; start += blocks.size()) {
     const std::size_t count = std::min(blocks.size(), cells - start);
     const Stopwatch watch;
@@ -65,6 +108,7 @@ bool BulkTerm<Dim>::add(const State& committed, const State& trial, double durat
       if (!block.ok) {
         out.ok = false;
         out.message = block.message;
+        failed = number(start + i);
         return false;
       }
       if (block.dof_count == 0) continue;

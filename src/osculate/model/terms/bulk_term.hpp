@@ -6,6 +6,7 @@
 #include "osculate/model/inertia.hpp"
 #include "osculate/model/linear_cells.hpp"
 #include "osculate/model/material_memory.hpp"
+#include "osculate/model/shares.hpp"
 #include "osculate/model/state.hpp"
 #include "osculate/model/terms/assembly.hpp"
 #include "osculate/solve/newton.hpp"
@@ -37,6 +38,8 @@ struct BulkTerm {
   Cells which = Cells::all;                   ///< what `add` is of
   std::vector<std::size_t> constant, others;  ///< numbers of jobs
   double seconds = 0;
+  const core::Ranks* ranks = nullptr;  ///< who share the cells; null: all are evaluated here
+  Shares shares;
   Eigen::VectorXd* diagonal =
       nullptr;  ///< gets those of tangents added, in size; none: nobody asks
 
@@ -62,12 +65,20 @@ struct BulkTerm {
   /// null.
   bool add(const State& committed, const State& trial, double duration,
            const CellInertia<Dim>* inertia, Assembly<Dim>& to, solve::Evaluation& out);
+  /// After evaluations that were shared: what the points of all cells remember.
+  void exchange_memory(std::vector<double>& memory) const;
   /// What stresses do to the stiffness, of cells of small strain (those of finite strain have it in
   /// their tangent): those of `at`, less those of `less` (null: none).
   ///
   /// Formula    solid::stress_stiffness
   /// Tested by  tests/unit/deck/test_vibrations.cpp, test_buckling.cpp
   void add_stresses(const Strained& at, const Strained* less, Assembly<Dim>& to);
+
+ private:
+  bool add_cells(const State& committed, const State& trial, double duration,
+                 const CellInertia<Dim>* inertia, Assembly<Dim>& to, solve::Evaluation& out,
+                 std::size_t& failed);
+  [[nodiscard]] bool all_added(std::size_t failed, Assembly<Dim>& to, solve::Evaluation& out);
 };
 
 extern template struct BulkTerm<2>;

@@ -1,0 +1,75 @@
+#pragma once
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <string>
+
+namespace osculate::core {
+
+/// Processes that work on one analysis together. All have the same input, take the same way, and
+/// call these functions in the same order; each then has the same numbers, to the last bit. One
+/// process alone has nobody to ask: a null pointer stands for that.
+///
+/// Tested by  tests/ranks
+class Ranks {
+ public:
+  Ranks() = default;
+  virtual ~Ranks() = default;
+  Ranks(const Ranks&) = delete;
+  Ranks& operator=(const Ranks&) = delete;
+
+  [[nodiscard]] virtual int count() const = 0;
+  [[nodiscard]] virtual int rank() const = 0;  ///< of this process, from 0
+  /// Every number becomes the sum over all processes. Where all but one give `nothing`, its bits
+  /// stay.
+  virtual void sum(std::span<double> values) const = 0;
+  /// Every number becomes the largest one of all processes.
+  virtual void largest(std::span<double> values) const = 0;
+  /// What process `from` has; sizes are equal.
+  virtual void spread(std::span<double> values, int from) const = 0;
+  virtual void spread(std::span<int> values, int from) const = 0;
+  /// What all have, one process after the other, on process 0; nothing on the others.
+  virtual void gather(std::span<const int> mine, std::span<int> all) const = 0;
+  /// This process takes leave, as all others do.
+  virtual void finish() const = 0;
+  /// Ends all processes.
+  [[noreturn]] virtual void end_all(int code) const = 0;
+
+  /// x + nothing = x for every x, zeros of both signs too.
+  static constexpr double nothing = -0.0;
+
+  [[nodiscard]] double largest(double value) const {
+    largest({&value, 1});
+    return value;
+  }
+  [[nodiscard]] double sum(double value) const {
+    sum({&value, 1});
+    return value;
+  }
+  [[nodiscard]] bool all(bool holds) const { return largest(holds ? 0.0 : 1.0) == 0.0; }
+  [[nodiscard]] bool any(bool holds) const { return largest(holds ? 1.0 : 0.0) != 0.0; }
+  /// The text of process `from`.
+  [[nodiscard]] std::string spread(const std::string& text, int from) const {
+    std::string out = text;
+    auto size = static_cast<int>(text.size());
+    spread({&size, 1}, from);
+    out.resize(static_cast<std::size_t>(size));
+    for (char& c : out) {
+      int code = c;
+      spread({&code, 1}, from);
+      c = static_cast<char>(code);
+    }
+    return out;
+  }
+};
+
+/// What the library of several processes (libosculate-mpi) hands out: they have begun then.
+struct RanksLibrary {
+  const Ranks* ranks = nullptr;              ///< of this process, until the library is unloaded
+  void (*mumps)(void* structure) = nullptr;  ///< dmumps_c of all processes
+  int communicator = 0;                      ///< as Fortran has it
+};
+/// The name of the function that hands it out, `void f(RanksLibrary&)`.
+constexpr const char* begin_ranks = "osculate_begin_ranks";
+
+}  // namespace osculate::core

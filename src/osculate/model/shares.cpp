@@ -1,0 +1,92 @@
+#include "osculate/model/shares.hpp"
+
+#include <algorithm>
+
+#include "osculate/mesh/partition.hpp"
+#include "osculate/model/bulk.hpp"
+#include "osculate/model/material_memory.hpp"
+
+namespace osculate::model {
+namespace {
+
+constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+/// Calls visit(unknown) for all unknowns that a dof follows from in some configuration.
+template <int Dim, class Visit>
+void for_each_behind(const BasicDofSpace<Dim>& dofs, Dof dof, const Visit& visit) {
+  if (const Index unknown = dofs.unknown_of(dof); unknown >= 0) return visit(unknown);
+  if (const Index e = dofs.equation_of(dof); e >= 0) {
+    const std::vector<Equation::Term>& terms = dofs.equations()[at(e)].terms;
+    for (std::size_t t = 1; t < terms.size(); ++t) for_each_behind(dofs, terms[t].dof, visit);
+    return;
+  }
+  const Index body = dof < Dim * dofs.nodes() ? dofs.body_of(dof / Dim) : -1;
+  for (int k = 0; body >= 0 && k < body::motions<Dim>; ++k)
+    for_each_behind(dofs, dofs.body_dof(body, k), visit);
+}
+
+template <int Dim>
+int owner_of(const BasicDofSpace<Dim>& dofs, const std::vector<int>& owner, Dof dof, int count) {
+  const Dof beyond = dof - Dim * dofs.nodes();
+  return beyond < 0 ? owner[at(dof / Dim)] : beyond / body::motions<Dim> % count;
+}
+
+}  // namespace
+
+template <int Dim>
+std::vector<int> node_owners(const BasicModel<Dim>& model, int parts) {
+  std::vector<std::vector<Index>> cells;
+  for_each_cell(model, [&](const auto&, const mesh::CellRef& cell, const CellMemory&) {
+    const std::span<const Index> nodes = cell_nodes(model.mesh, cell).nodes;
+    cells.emplace_back(nodes.begin(), nodes.end());
+  });
+  return mesh::node_parts(cells, static_cast<Index>(model.reference.size()), parts);
+}
+
+template <int Dim>
+Shares shares_of(const BasicModel<Dim>& model, const BasicDofSpace<Dim>& dofs, Index multipliers,
+                 const std::vector<int>& owner, int rank, int count) {
+  Shares out;
+  const Index unknowns = dofs.unknowns();
+  out.rows.resize(at(unknowns + multipliers));
+  for (Index u = 0; u < unknowns; ++u)
+    out.rows[at(u)] = owner_of(dofs, owner, dofs.dof_of_unknown(u), count) == rank;
+  for (Index m = 0; m < multipliers; ++m)
+    out.rows[at(unknowns + m)] =
+        std::int64_t{m} * count / multipliers == rank;  // neighbours together
+  std::size_t number = 0;
+  for_each_cell(model, [&](const auto&, const mesh::CellRef& cell, const CellMemory&) {
+    const std::span<const Index> nodes = cell_nodes(model.mesh, cell).nodes;
+    bool seen = false;
+    for (const Index node : nodes) {
+      seen = seen || owner[at(node)] == rank;
+      for (int i = 0; i < Dim && !seen; ++i)
+        for_each_behind(dofs, dofs.node_dof(node, i),
+                        [&](Index unknown) { seen = seen || out.rows[at(unknown)]; });
+    }
+    if (seen) out.cells.push_back(number);
+    if (owner[at(nodes.front())] == rank) out.own_cells.push_back(number);
+    ++number;
+  });
+  for (const int of : owner) out.mine.push_back(of == rank ? 1 : 0);
+  return out;
+}
+
+template <int Dim>
+void exchange(const Shares& shares, const core::Ranks& ranks, Eigen::VectorXd& of_dofs) {
+  for (std::size_t node = 0; node < shares.mine.size(); ++node)
+    if (shares.mine[node] == 0)
+      of_dofs.template segment<Dim>(Dim * static_cast<Eigen::Index>(node))
+          .setConstant(core::Ranks::nothing);
+  ranks.sum({of_dofs.data(), Dim * shares.mine.size()});
+}
+
+template std::vector<int> node_owners(const Model&, int);
+template std::vector<int> node_owners(const Model3&, int);
+template Shares shares_of(const Model&, const DofSpace&, Index, const std::vector<int>&, int, int);
+template Shares shares_of(const Model3&, const DofSpace3&, Index, const std::vector<int>&, int,
+                          int);
+template void exchange<2>(const Shares&, const core::Ranks&, Eigen::VectorXd&);
+template void exchange<3>(const Shares&, const core::Ranks&, Eigen::VectorXd&);
+
+}  // namespace osculate::model

@@ -1,0 +1,44 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "osculate/core/ranks.hpp"
+#include "osculate/model/model.hpp"
+
+namespace osculate::model {
+
+/// How the work on a model is shared: every node has one process that owns it, every unknown too,
+/// and a process evaluates the cells that its nodes and unknowns see. Cells between two owners are
+/// evaluated by both, so that rows of the matrix and forces on nodes are summed up by one process,
+/// in the order of the cells: their bits are those of one process alone.
+/// States, contact and loads are the same on all processes.
+///
+/// Decision   docs/decisions/093-several-processes.md
+/// Tested by  tests/unit/model/test_shares.cpp, tests/ranks
+struct Shares {
+  std::vector<char> mine;              ///< by node: owned by this process
+  std::vector<bool> rows;              ///< by unknown, then multipliers: owned by this process
+  std::vector<std::size_t> cells;      ///< evaluated by this process, in the order of BulkTerm
+  std::vector<std::size_t> own_cells;  ///< of these, those whose first node it owns
+};
+
+/// Who owns the nodes of the cells: parts of about as many nodes, with few cells between them.
+///
+/// Returns    one for each node, below `parts`; nodes without cells are dealt out in turn
+/// Errors     throws std::bad_alloc
+template <int Dim>
+[[nodiscard]] std::vector<int> node_owners(const BasicModel<Dim>& model, int parts);
+
+/// What process `rank` has to do.
+///
+/// Input      owner: of each node, below `count`; multipliers: of the matrix, behind the unknowns
+template <int Dim>
+[[nodiscard]] Shares shares_of(const BasicModel<Dim>& model, const BasicDofSpace<Dim>& dofs,
+                               Index multipliers, const std::vector<int>& owner, int rank,
+                               int count);
+
+/// Forces on dofs (of nodes, then of rigid bodies): those that others own come from them.
+template <int Dim>
+void exchange(const Shares& shares, const core::Ranks& ranks, Eigen::VectorXd& of_dofs);
+
+}  // namespace osculate::model

@@ -1,0 +1,64 @@
+// The processes that mpirun has started, and the MUMPS that they share: a library by itself, which
+// the program loads where it was started so, and otherwise knows nothing of.
+#include <dmumps_c.h>
+#include <mpi.h>
+
+#include <numeric>
+#include <vector>
+
+#include "osculate/core/ranks.hpp"
+
+namespace osculate::mpi {
+namespace {
+
+class World final : public core::Ranks {
+ public:
+  World() {
+    MPI_Comm_size(MPI_COMM_WORLD, &count_);
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+  }
+  [[nodiscard]] int count() const override { return count_; }
+  [[nodiscard]] int rank() const override { return rank_; }
+  void sum(std::span<double> values) const override { reduce(values, MPI_SUM); }
+  void largest(std::span<double> values) const override { reduce(values, MPI_MAX); }
+  void spread(std::span<double> values, int from) const override {
+    MPI_Bcast(values.data(), static_cast<int>(values.size()), MPI_DOUBLE, from, MPI_COMM_WORLD);
+  }
+  void spread(std::span<int> values, int from) const override {
+    MPI_Bcast(values.data(), static_cast<int>(values.size()), MPI_INT, from, MPI_COMM_WORLD);
+  }
+  void gather(std::span<const int> mine, std::span<int> all) const override {
+    const int size = static_cast<int>(mine.size());
+    std::vector<int> sizes(static_cast<std::size_t>(count_)), starts(sizes.size());
+    MPI_Gather(&size, 1, MPI_INT, sizes.data(), 1, MPI_INT, 0, MPI_COMM_WORLD);
+    std::exclusive_scan(sizes.begin(), sizes.end(), starts.begin(), 0);
+    MPI_Gatherv(mine.data(), size, MPI_INT, all.data(), sizes.data(), starts.data(), MPI_INT, 0,
+                MPI_COMM_WORLD);
+  }
+  void finish() const override { MPI_Finalize(); }
+  [[noreturn]] void end_all(int code) const override {
+    MPI_Abort(MPI_COMM_WORLD, code);
+    __builtin_unreachable();
+  }
+
+ private:
+  static void reduce(std::span<double> values, MPI_Op by) {
+    MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, by,
+                  MPI_COMM_WORLD);
+  }
+  int count_ = 1, rank_ = 0;
+};
+
+void call_mumps(void* structure) { dmumps_c(static_cast<DMUMPS_STRUC_C*>(structure)); }
+
+}  // namespace
+}  // namespace osculate::mpi
+
+extern "C" void osculate_begin_ranks(osculate::core::RanksLibrary& library) {
+  int provided = 0;
+  MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
+  static const osculate::mpi::World world;
+  library.ranks = &world;
+  library.mumps = osculate::mpi::call_mumps;
+  library.communicator = static_cast<int>(MPI_Comm_c2f(MPI_COMM_WORLD));
+}
