@@ -7,20 +7,43 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <initializer_list>
 
 #include "osculate/core/error.hpp"
 #include "osculate/core/memory.hpp"
+#include "osculate/io/atomic_file.hpp"
 #include "program.hpp"
 
 namespace osculate::app {
 namespace {
 
-/// As Open MPI, MPICH (hydra) and Slurm tell those that they start.
-int processes_started() {
-  for (const char* const name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"})
+int number_in(std::initializer_list<const char*> names, int otherwise) {
+  for (const char* const name : names)
     if (const char* const text = std::getenv(name)) return std::atoi(text);
-  const char* const of_slurm = std::getenv("SLURM_STEP_NUM_TASKS");
-  return of_slurm && std::getenv("SLURM_MPI_TYPE") ? std::atoi(of_slurm) : 1;
+  return otherwise;
+}
+
+/// As Open MPI, MPICH (hydra) and Slurm (srun --mpi=...) tell those that they start.
+int processes_started() {
+  const bool by_slurm = std::getenv("PMIX_RANK") || std::getenv("PMI_RANK");
+  const int by_mpirun = number_in({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}, 1);
+  return by_slurm && by_mpirun <= 1 ? number_in({"SLURM_STEP_NUM_TASKS"}, 1) : by_mpirun;
+}
+
+/// Where this process can be heard, silenced or not.
+int voice() {
+  static const int fd = [] {
+    if (processes_started() <= 1 ||
+        number_in({"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK"}, 0) == 0)
+      return STDERR_FILENO;
+    const int kept = ::dup(STDERR_FILENO);
+    const int nowhere = ::open("/dev/null", O_WRONLY);
+    ::dup2(nowhere, STDOUT_FILENO);
+    ::dup2(nowhere, STDERR_FILENO);
+    ::close(nowhere);
+    return kept;
+  }();
+  return fd;
 }
 
 core::RanksLibrary begin(int processes) {
@@ -44,33 +67,44 @@ core::RanksLibrary begin(int processes) {
   return out;
 }
 
+[[noreturn]] void end_all(const core::Ranks& ranks, const std::string& why, int code) {
+  const std::string text = fmt::format(
+      "stopped: process {} cannot go on: {}; what was written before is kept\n", ranks.rank(), why);
+  const bool heard = ::write(voice(), text.data(), text.size()) >= 0;
+  ranks.end_all(heard ? code : defect);
+  std::abort();
+}
+
 }  // namespace
 
-Joined::Joined() {
+void let_the_first_speak() { (void)voice(); }
+
+void be_alone(const std::string& command) {
+  if (processes_started() > 1)
+    throw core::InputError(
+        {}, fmt::format("'osculate {}' is for one process: start it without mpirun", command));
+}
+
+int join(const std::function<int(const model::Together&)>& part) {
   const int processes = processes_started();
-  if (processes <= 1) return;
+  if (processes <= 1) return part({});
   const core::RanksLibrary library = begin(processes);
-  together_ = {library.ranks, {library.mumps, library.communicator}};
-  if (library.ranks->rank() == 0) return;
-  voice_ = ::dup(STDERR_FILENO);
-  const int nowhere = ::open("/dev/null", O_WRONLY);
-  ::dup2(nowhere, STDOUT_FILENO);
-  ::dup2(nowhere, STDERR_FILENO);
-  ::close(nowhere);
-}
-
-Joined::~Joined() {
-  if (together_.ranks) together_.ranks->finish();
-}
-
-void Joined::end_all(const std::exception& why) const {
-  if (!together_.ranks) return;
-  const auto* const memory = dynamic_cast<const std::bad_alloc*>(&why);
-  const std::string text =
-      fmt::format("stopped: process {} cannot go on: {}; what was written before is kept\n",
-                  together_.ranks->rank(), memory ? core::out_of_memory_text(*memory) : why.what());
-  if (::write(voice_, text.data(), text.size()) < 0) together_.ranks->end_all(defect);
-  together_.ranks->end_all(memory ? analysis_stopped : defect);
+  const core::Ranks& ranks = *library.ranks;
+  try {
+    const int code = part({&ranks, {library.mumps, library.communicator}});
+    ranks.finish();
+    return code;
+  } catch (const core::InputError&) {  // of all processes
+    ranks.finish();
+    throw;
+  } catch (const io::WriteError&) {
+    ranks.finish();
+    throw;
+  } catch (const std::bad_alloc& error) {
+    end_all(ranks, core::out_of_memory_text(error), analysis_stopped);
+  } catch (const std::exception& error) {
+    end_all(ranks, error.what(), defect);
+  }
 }
 
 }  // namespace osculate::app

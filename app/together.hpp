@@ -1,28 +1,28 @@
 #pragma once
-#include <exception>
+#include <functional>
+#include <string>
 
 #include "osculate/model/analysis.hpp"
 
 namespace osculate::app {
 
-/// The processes that mpirun, or the like, has started with this one. The first of them speaks for
-/// all: what the others print goes nowhere.
-class Joined {
- public:
-  /// Errors     throws core::InputError where there are several, and this build knows nothing of
-  ///            MPI
-  Joined();
-  ~Joined();
-  Joined(const Joined&) = delete;
-  Joined& operator=(const Joined&) = delete;
+// Programs that mpirun, or the like, starts several times. The first of these processes speaks for
+// all: what the others print goes nowhere.
 
-  [[nodiscard]] const model::Together& together() const { return together_; }
-  /// Says why this process cannot go on, and ends all; nothing where it is alone.
-  void end_all(const std::exception& why) const;
+/// To be called first: silences this process if it is one of the others.
+void let_the_first_speak();
 
- private:
-  model::Together together_;
-  int voice_ = 2;  ///< where this process can be heard
-};
+/// For commands of one process.
+///
+/// Errors     throws core::InputError where there are several
+void be_alone(const std::string& command);
+
+/// Does a part of the program that all these processes do: they join before it and part behind it.
+/// Where one of them cannot go on it says why and ends all.
+///
+/// Returns    what `part` does
+/// Errors     throws core::InputError where there are several, and this build knows nothing of MPI;
+///            what `part` throws for bad input or files, on all of them
+[[nodiscard]] int join(const std::function<int(const model::Together&)>& part);
 
 }  // namespace osculate::app

@@ -6,6 +6,7 @@
 
 #include "osculate/io/plot.hpp"
 #include "osculate/io/scene.hpp"
+#include "workers.hpp"
 
 namespace osculate::verification {
 
@@ -52,7 +53,7 @@ struct CaseResult {
 
 struct CaseContext {
   std::string folder;  ///< of the case: models and reference data
-  int threads = 1;
+  Workers workers{};
 };
 
 struct Case {

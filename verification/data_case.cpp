@@ -342,7 +342,7 @@ CaseResult run_case(const CaseContext& context) {
     std::vector<DataColumn> columns;
     for (std::size_t k = 0; k < list.size(); ++k)
       if (k == i || !name.empty()) collect(list[k].at("rows"), name, k == i, columns);
-    own[i] = run_data(context.folder + "/" + model, data.changes[i], columns, context.threads);
+    own[i] = run_data(context.folder + "/" + model, data.changes[i], columns, context.workers);
     if (!name.empty()) named[name] = own[i];
   }
   CaseResult out;

@@ -29,6 +29,6 @@ struct DataRun {
 /// Runs a model after the values that `changes` (a map from paths of keys such as
 /// `contact.0.normal.penalty` to what shall stand there) replaces.
 [[nodiscard]] DataRun run_data(const std::string& model, const deck::SourceNode& changes,
-                               const std::vector<DataColumn>& columns, int threads);
+                               const std::vector<DataColumn>& columns, const Workers& workers);
 
 }  // namespace osculate::verification

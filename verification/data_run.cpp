@@ -133,8 +133,8 @@ void add_gaps(const std::string& pair, const pairing::PairEvaluation<Dim>& conta
 
 template <int Dim>
 DataRun run_built(deck::BasicBuilt<Dim>& built, const std::vector<DataColumn>& columns,
-                  int threads) {
-  built.options.threads = threads;
+                  const Workers& workers) {
+  workers.work_on(built.options);
   DataRun out;
   model::BasicAnalysisObserver<Dim> observer;
   observer.converged = [&](model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,
@@ -185,9 +185,9 @@ DataRun run_built(deck::BasicBuilt<Dim>& built, const std::vector<DataColumn>& c
 }  // namespace
 
 DataRun run_data(const std::string& model, const deck::SourceNode& changes,
-                 const std::vector<DataColumn>& columns, int threads) {
+                 const std::vector<DataColumn>& columns, const Workers& workers) {
   deck::AnyBuilt any = build_changed(model, changes, columns);
-  return std::visit([&](auto& built) { return run_built(built, columns, threads); }, any);
+  return std::visit([&](auto& built) { return run_built(built, columns, workers); }, any);
 }
 
 }  // namespace osculate::verification

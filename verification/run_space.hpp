@@ -5,6 +5,7 @@
 
 #include "osculate/deck/build.hpp"
 #include "osculate/deck/parse.hpp"
+#include "workers.hpp"
 
 namespace osculate::verification {
 
@@ -25,14 +26,14 @@ struct Edits3 {
 
 /// Runs a model file given as text; `look` is called after the initial state and each converged
 /// increment.
-inline model::AnalysisResult3 run_text3(const std::string& text, int threads,
+inline model::AnalysisResult3 run_text3(const std::string& text, const Workers& workers,
                                         const std::function<void(const Snapshot3&)>& look,
                                         const Edits3& edits = {}) {
   const deck::Description description = deck::parse_model(text, "generated.yaml");
   mesh::Mesh mesh = deck::load_mesh(description);
   if (edits.mesh) edits.mesh(mesh);
   deck::Built3 built = deck::build3(description, std::move(mesh));
-  built.options.threads = threads;
+  workers.work_on(built.options);
   if (edits.model) edits.model(built);
   model::AnalysisObserver3 observer;
   observer.converged = [&](model::System3& system, const model::State3& state,

@@ -28,7 +28,7 @@ void add_settings(CLI::App& command, std::vector<std::string>& texts);
 
 // One file a command. Each adds its subcommand; the callback stores the exit code.
 void add_init(CLI::App& app, int& exit_code);
-void add_run(CLI::App& app, const model::Together& together, int& exit_code);
+void add_run(CLI::App& app, int& exit_code);
 void add_study(CLI::App& app, int& exit_code);
 void add_check(CLI::App& app, int& exit_code);
 void add_tangent(CLI::App& app, int& exit_code);

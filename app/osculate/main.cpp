@@ -3,31 +3,21 @@
 
 #include "../together.hpp"
 #include "commands.hpp"
-#include "osculate/core/error.hpp"
 #include "osculate/core/memory.hpp"
 #include "osculate/core/version.hpp"
-#include "osculate/io/atomic_file.hpp"
 #include "osculate/la/blas_threads.hpp"
 
 namespace {
 
-using namespace osculate;
-using namespace osculate::app;
-
-/// Commands that several processes run together.
-bool is_shared(const CLI::App& app) {
-  const auto used = app.get_subcommands();
-  return used.empty() || used.front()->get_name() == "run" || used.front()->get_name() == "verify";
-}
-
-int run_command(int argc, char** argv, const model::Together& together) {
+int run_program(int argc, char** argv) {
+  using namespace osculate::app;
   CLI::App app{"Osculate: contact mechanics in the coordinates of the master surface", "osculate"};
   app.set_version_flag("--version",
                        std::string("osculate ") + std::string(osculate::core::version));
   app.require_subcommand(1);
   int exit_code = done;
   add_init(app, exit_code);
-  add_run(app, together, exit_code);
+  add_run(app, exit_code);
   add_study(app, exit_code);
   add_check(app, exit_code);
   add_tangent(app, exit_code);
@@ -47,11 +37,9 @@ int run_command(int argc, char** argv, const model::Together& together) {
   if (argc > 0 && std::filesystem::path(argv[0]).stem() == "ccx")
     arguments.insert(arguments.begin(), "ccx");
   std::ranges::reverse(arguments);
-  app.parse_complete_callback([&] {
-    if (together.ranks && !is_shared(app))
-      throw core::InputError({}, fmt::format("'osculate {}' is for one process: start it without "
-                                             "mpirun",
-                                             app.get_subcommands().front()->get_name()));
+  app.parse_complete_callback([&app] {
+    const std::string name = app.get_subcommands().front()->get_name();
+    if (name != "run" && name != "verify") be_alone(name);
   });
   try {
     app.parse(arguments);
@@ -61,23 +49,10 @@ int run_command(int argc, char** argv, const model::Together& together) {
   return exit_code;
 }
 
-int run_program(int argc, char** argv) {
-  const Joined joined;
-  try {
-    return run_command(argc, argv, joined.together());
-  } catch (const core::InputError&) {  // of all processes
-    throw;
-  } catch (const io::WriteError&) {
-    throw;
-  } catch (const std::exception& error) {
-    joined.end_all(error);
-    throw;
-  }
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
+  osculate::app::let_the_first_speak();
   osculate::core::keep_freed_memory();
   osculate::la::end_idle_blas_threads();
   return osculate::app::guarded(run_program, argc, argv);

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <memory>
 
+#include "../together.hpp"
 #include "commands.hpp"
 #include "osculate/api/run.hpp"
 
@@ -85,10 +86,9 @@ int run(RunFlags& flags) {
 
 }  // namespace
 
-void add_run(CLI::App& app, const model::Together& together, int& exit_code) {
+void add_run(CLI::App& app, int& exit_code) {
   CLI::App* const command = app.add_subcommand("run", "Run the analysis of a model file");
   auto flags = std::make_shared<RunFlags>();
-  flags->options.together = together;
   command->add_option("model", flags->options.model, "Model file (YAML)")->required();
   command->add_option("-o,--output", flags->options.folder,
                       "Result folder (default: MODEL's stem + .results)");
@@ -101,7 +101,12 @@ void add_run(CLI::App& app, const model::Together& together, int& exit_code) {
                     "Go on from the last checkpoint in the result folder");
   add_limits(*command, flags->options);
   add_settings(*command, flags->settings);
-  command->callback([flags, &exit_code] { exit_code = run(*flags); });
+  command->callback([flags, &exit_code] {
+    exit_code = join([&](const model::Together& together) {
+      flags->options.together = together;
+      return run(*flags);
+    });
+  });
 }
 
 }  // namespace osculate::app

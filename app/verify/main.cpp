@@ -14,6 +14,7 @@
 #include "../../verification/case.hpp"
 #include "../processes.hpp"
 #include "../program.hpp"
+#include "../together.hpp"
 #include "osculate/core/error.hpp"
 #include "osculate/core/text.hpp"
 #include "osculate/core/version.hpp"
@@ -29,6 +30,7 @@ struct VerifyOptions {
   bool list = false, slow = false;
   std::string json, curves, plots;
   int threads = 1;
+  model::Together together;  ///< processes that run the same cases
   int jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 };
 
@@ -124,7 +126,7 @@ nlohmann::json run_case(const Case& c, const VerifyOptions& options, const std::
   const auto start = std::chrono::steady_clock::now();
   CaseResult result;
   try {
-    result = c.run({folder + "/" + c.name, options.threads});
+    result = c.run({folder + "/" + c.name, {options.threads, options.together}});
   } catch (const std::exception& error) {
     result.rows.push_back(failure(fmt::format("case ended with: {}", error.what())));
   }
@@ -166,12 +168,13 @@ int verify(const VerifyOptions& options) {
   };
   std::map<std::size_t, ProcessEnd> ended;  // those behind one that is still under way
   std::size_t next = 0;
-  run_processes(
-      cases.size(), options.jobs,
-      [&](std::size_t i) { return run_case(*cases[i], options, folder).dump(); },
-      [&](std::size_t i, const ProcessEnd& end) {
-        for (ended.emplace(i, end); ended.contains(next); ++next) take(next, ended.at(next));
-      });
+  const auto work = [&](std::size_t i) { return run_case(*cases[i], options, folder).dump(); };
+  if (options.together.ranks)
+    for (std::size_t i = 0; i < cases.size(); ++i) take(i, {work(i), ""});
+  else
+    run_processes(cases.size(), options.jobs, work, [&](std::size_t i, const ProcessEnd& end) {
+      for (ended.emplace(i, end); ended.contains(next); ++next) take(next, ended.at(next));
+    });
   if (json) {
     json->write(out.dump(1) + "\n");
     json->commit();
@@ -201,12 +204,16 @@ int run_program(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? done : bad_input;
   }
-  return verify(options);
+  return join([&](const model::Together& together) {
+    options.together = together;
+    return verify(options);
+  });
 }
 
 }  // namespace
 }  // namespace osculate::app
 
 int main(int argc, char** argv) {
+  osculate::app::let_the_first_speak();
   return osculate::app::guarded(osculate::app::run_program, argc, argv);
 }

@@ -53,10 +53,10 @@ void draw_state(const model::Model3& m, const std::vector<Vec3>& x, double incre
                                    fmt::format("increment {:.0f}", increment)));
 }
 
-Outcome run_case(const Choice& choice, int threads, bool draw = false) {
+Outcome run_case(const Choice& choice, const Workers& workers, bool draw = false) {
   const model::Model3 m = make_model(choice);
   model::AnalysisOptions options;
-  options.threads = threads;
+  workers.work_on(options);
   options.increments.newton.energy = choice.energy;
   options.increments.newton.residual = choice.residual;
   options.increments.newton.line_search = choice.line_search;
@@ -163,7 +163,7 @@ void add_table(const CaseContext& context, bool quadratic, double penalty,
     choice.tangent = p.tangent;
     choice.predictor = solve::Predictor::tangent;
     const bool draw = k == 0 && !quadratic;
-    Outcome o = run_case(choice, context.threads, draw);
+    Outcome o = run_case(choice, context.workers, draw);
     if (draw)
       result.drawings.push_back({"deformation",
                                  {"Beam bent over a rigid cylinder",
@@ -194,7 +194,7 @@ void add_defaults(const CaseContext& context, CaseResult& result) {
       choice.energy = energy;
       choice.line_search = solve::LineSearch::automatic;
       choice.cylinder_master = reversed;
-      const Outcome o = run_case(choice, context.threads);
+      const Outcome o = run_case(choice, context.workers);
       const bool bound = !reversed && energy < 1e-6;
       add_row(result,
               fmt::format("defaults, {} master, energy {:g}: iterations",

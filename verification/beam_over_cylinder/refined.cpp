@@ -87,7 +87,7 @@ std::vector<Level> run_beam(const CaseContext& context, const BeamModel& beam) {
   const std::vector<Station> line = stations(m);
   const ElasticaSetUp set_up = elastica_set_up();
   model::AnalysisOptions options;
-  options.threads = context.threads;
+  context.workers.work_on(options);
   std::vector<Level> out;
   model::AnalysisObserver3 observer;
   observer.converged = [&](model::System3& system, const model::BasicState<3>& state,

@@ -127,9 +127,9 @@ Problem make_problem(const Choice& c) {
   return {std::move(b.model), std::move(sphere.all)};
 }
 
-model::AnalysisOptions options_of(const Choice& c, int threads) {
+model::AnalysisOptions options_of(const Choice& c, const Workers& workers) {
   model::AnalysisOptions options;
-  options.threads = threads;
+  workers.work_on(options);
   if (c.defaults) return options;
   options.increments.newton.energy = 1e-10;
   options.increments.newton.residual = 0;
@@ -173,7 +173,7 @@ void note(const Problem& problem, model::System3& system, const model::BasicStat
   out.heavy_corner = x[static_cast<std::size_t>(load[light_first ? 1 : 0].first / 3)];
 }
 
-Outcome run_case(const Choice& choice, int threads, bool draw = false) {
+Outcome run_case(const Choice& choice, const Workers& workers, bool draw = false) {
   const Problem problem = make_problem(choice);
   Outcome out;
   model::AnalysisObserver3 observer;
@@ -188,7 +188,7 @@ Outcome run_case(const Choice& choice, int threads, bool draw = false) {
     return true;
   };
   const model::AnalysisResult3 result =
-      model::run(problem.model, options_of(choice, threads), observer);
+      model::run(problem.model, options_of(choice, workers), observer);
   out.converged = result.outcome == solve::Outcome::converged;
   return out;
 }
@@ -217,7 +217,7 @@ void add_published(const CaseContext& context, CaseResult& result) {
     choice.tangent = p.tangent;
     choice.penalty = p.penalty;
     choice.limited = false;
-    const Outcome o = run_case(choice, context.threads);
+    const Outcome o = run_case(choice, context.workers);
     const std::string kind = fmt::format("full steps, case {}, penalty {:g}", p.name, p.penalty);
     add_row(result, kind + ": iterations", o.converged ? o.iterations : -1, p.total, Relation::info,
             0, "KSVD Table 3");
@@ -244,7 +244,7 @@ void add_limited(const CaseContext& context, double penalty, CaseResult& result)
   Curve curve{fmt::format("iterations_{:g}", penalty), {"increment", "a", "b", "c", "d"}, {}};
   for (int i = 1; i <= increments; ++i) curve.rows.push_back({static_cast<double>(i), 0, 0, 0, 0});
   for (std::size_t k = 0; k < 4; ++k) {
-    o[k] = run_case({forms[k], penalty}, context.threads, k == 0 && penalty == 5e2);
+    o[k] = run_case({forms[k], penalty}, context.workers, k == 0 && penalty == 5e2);
     const std::string kind = fmt::format("limited, case {}, penalty {:g}", names[k], penalty);
     add_row(result, kind + ": end of the load reached", o[k].converged ? 1 : 0, 1, Relation::equal,
             0, "requirement");
@@ -289,7 +289,7 @@ CaseResult beam_over_sphere(const CaseContext& context) {
     Choice choice;
     choice.penalty = penalty;
     choice.defaults = true;
-    const Outcome o = run_case(choice, context.threads);
+    const Outcome o = run_case(choice, context.workers);
     const std::string kind = fmt::format("defaults, penalty {:g}", penalty);
     add_row(result, kind + ": end of the load reached", o.converged ? 1 : 0, 1, Relation::equal, 0,
             "requirement");

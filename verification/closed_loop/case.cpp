@@ -130,7 +130,7 @@ struct Run {
   int iterations = 0;
 };
 
-Run drag(Floor floor, const std::vector<Way>& ways, bool let_go, int threads,
+Run drag(Floor floor, const std::vector<Way>& ways, bool let_go, const Workers& workers,
          const std::string& sampling = "nodes") {
   Run run;
   std::vector<Index> facets;
@@ -166,7 +166,7 @@ Run drag(Floor floor, const std::vector<Way>& ways, bool let_go, int threads,
     run.moments.push_back(m);
   };
   const model::AnalysisResult3 result =
-      run_text3(model_text(floor, ways, let_go, sampling), threads, look);
+      run_text3(model_text(floor, ways, let_go, sampling), workers, look);
   if (result.outcome != solve::Outcome::converged) throw std::runtime_error(result.message);
   return run;
 }
@@ -191,9 +191,10 @@ struct Rounds {
   Curve curve;
 };
 
-Rounds rounds(Floor floor, int increments, int threads, const std::string& sampling = "nodes") {
+Rounds rounds(Floor floor, int increments, const Workers& workers,
+              const std::string& sampling = "nodes") {
   const std::vector<Way> ways{circle("first", increments), circle("second", increments)};
-  const Run run = drag(floor, ways, false, threads, sampling);
+  const Run run = drag(floor, ways, false, workers, sampling);
   Rounds out;
   out.curve = {fmt::format("circle_{}", increments), {"x", "y", "shear_x", "shear_y", "work"}, {}};
   Slider stone;
@@ -240,13 +241,13 @@ Picture error_picture(const Curve& errors) {
   return picture;
 }
 
-void add_circle(CaseResult& out, int threads) {
+void add_circle(CaseResult& out, const Workers& workers) {
   Rounds coarse, fine;
   double shear_gap = 0, work_gap = 0, books = 0;
   Curve errors{"circle_errors", {"increments", "shear", "work"}, {}};
   for (const int n : {32, 64, 128, 256}) {
     coarse = std::move(fine);
-    fine = rounds(Floor::plane, n, threads);
+    fine = rounds(Floor::plane, n, workers);
     shear_gap = std::max(shear_gap, fine.shear_gap);
     work_gap = std::max(work_gap, fine.work_gap);
     books = std::max(books, std::abs(fine.last.work - fine.last.pair_work));
@@ -259,7 +260,7 @@ void add_circle(CaseResult& out, int threads) {
       mapping_law);
   add(out, "circle: work in summary.json and of the pair, off by", books, 0, equal, 0, "");
   for (const std::string sampling : samplings) {
-    const Rounds facets = rounds(Floor::facets, 64, threads, sampling);
+    const Rounds facets = rounds(Floor::facets, 64, workers, sampling);
     const std::string name = fmt::format("circle over facets, {}: ", sampling);
     add(out, name + "shear of every increment / mu N, off by", facets.shear_gap, 1e-10, at_most, 0,
         mapping_law);
@@ -289,9 +290,9 @@ struct Square {
   Slider exact;
 };
 
-Square run_square(Floor floor, int increments, bool left, int threads) {
+Square run_square(Floor floor, int increments, bool left, const Workers& workers) {
   const std::vector<Way> ways = square(increments, left);
-  const Run run = drag(floor, ways, true, threads);
+  const Run run = drag(floor, ways, true, workers);
   Square out{run.moments[run.moments.size() - 2], run.moments.back(), {}};
   for (const Way& way : ways) pull_straight(out.exact, way.at.back(), rod);
   return out;
@@ -301,11 +302,11 @@ double degrees_between(const Vec2& a, const Vec2& b) {
   return std::abs(std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b))) * 180 / pi;
 }
 
-void add_square(CaseResult& out, int threads) {
+void add_square(CaseResult& out, const Workers& workers) {
   using enum Relation;
-  const Square left = run_square(Floor::plane, 256, true, threads);
-  const Square coarse = run_square(Floor::plane, 128, true, threads);
-  const Square right = run_square(Floor::plane, 256, false, threads);
+  const Square left = run_square(Floor::plane, 256, true, workers);
+  const Square coarse = run_square(Floor::plane, 128, true, workers);
+  const Square right = run_square(Floor::plane, 256, false, workers);
   const double full = mu * force;
   // friction on the block, against its last way (0, -1) or (-1, 0)
   add(out, "square to the left: friction on the block along y / mu N", -left.end.shear.y() / full,
@@ -338,11 +339,11 @@ void add_square(CaseResult& out, int threads) {
 }
 
 /// An elastic block led by its top round the circle over an elastic block.
-void add_elastic(CaseResult& out, int threads) {
+void add_elastic(CaseResult& out, const Workers& workers) {
   using enum Relation;
   std::vector<double> unbalance;
   for (const int n : {64, 128}) {
-    const Rounds r = rounds(Floor::elastic, n, threads);
+    const Rounds r = rounds(Floor::elastic, n, workers);
     unbalance.push_back(std::abs(r.second_supply / r.second_round - 1));
     const std::string name = fmt::format("elastic, {} increments: ", n);
     add(out, name + "work of the leading forces / work of friction, second round",
@@ -360,12 +361,12 @@ void add_elastic(CaseResult& out, int threads) {
 }
 
 /// Straight over five unequal facets and back, with every sampling in the plane and in space.
-void add_over_borders(CaseResult& out, int threads) {
+void add_over_borders(CaseResult& out, const Workers& workers) {
   using enum Relation;
   for (const int dimension : {2, 3})
     for (const char* const sampling : samplings) {
       const BorderNumbers n =
-          numbers_over_borders({.dimension = dimension, .sampling = sampling, .threads = threads});
+          numbers_over_borders({.dimension = dimension, .sampling = sampling, .workers = workers});
       const std::string name =
           fmt::format("five facets, {}, {}: ", dimension == 2 ? "plane" : "space", sampling);
       add(out, name + "shear left of sticking there and back / largest", n.left, 1e-12, at_most, 0,
@@ -383,10 +384,10 @@ void add_over_borders(CaseResult& out, int threads) {
 
 CaseResult closed_loop(const CaseContext& context) {
   CaseResult out;
-  add_circle(out, context.threads);
-  add_over_borders(out, context.threads);
-  add_square(out, context.threads);
-  add_elastic(out, context.threads);
+  add_circle(out, context.workers);
+  add_over_borders(out, context.workers);
+  add_square(out, context.workers);
+  add_elastic(out, context.workers);
   return out;
 }
 

@@ -20,7 +20,7 @@ struct OverBorders {
   bool cut = true;
   double mu = 0.3;
   int rounds = 1;
-  int threads = 1;
+  Workers workers = 1;
 
   static constexpr double depth = 0.01, eps_n = 1000, eps_t = 30, way = 7.6;
   static constexpr int increments = 19;
@@ -120,7 +120,7 @@ inline std::vector<BorderMoment> drag_over_borders(const OverBorders& o) {
                      },
                      {}};
   check(run_text3(
-      text, o.threads,
+      text, o.workers,
       [&](const Snapshot3& s) { look(s.system, s.model, s.state, s.record ? 0 : -1); }, edits));
   return out;
 }

@@ -102,7 +102,7 @@ struct Errors {
   double balance = 1;   ///< forces of the pair and of the support against the load
 };
 
-Errors patch_errors(const Patch& p, int threads) {
+Errors patch_errors(const Patch& p, const Workers& workers) {
   Errors out;
   const auto look = [&](const Snapshot3& s) {
     if (!s.record) return;
@@ -132,7 +132,7 @@ Errors patch_errors(const Patch& p, int threads) {
     }
   };
   const Edits3 edits{[&](mesh::Mesh& m) { distort(p, m); }, {}};
-  const model::AnalysisResult3 result = run_text3(model_text(p), threads, look, edits);
+  const model::AnalysisResult3 result = run_text3(model_text(p), workers, look, edits);
   if (result.outcome != solve::Outcome::converged) return {};
   return out;
 }
@@ -142,12 +142,12 @@ const char* role(bool upper) { return upper ? "upper slave" : "lower slave"; }
 /// The same mesh on both sides: exact where the areas of the slave's nodes are the nodal forces of
 /// a uniform pressure.
 void add_matching(const std::string& type, const char* face, bool exact, CaseResult& out,
-                  double& balance, int threads) {
+                  double& balance, const Workers& workers) {
   for (const bool upper : {true, false}) {
     Patch p;
     p.lower_type = p.upper_type = type;
     p.upper_is_slave = upper;
-    const Errors e = patch_errors(p, threads);
+    const Errors e = patch_errors(p, workers);
     if (e.converged) balance = std::max(balance, e.balance);
     const std::string name = fmt::format("{} ({}), matching, {}: ", type, face, role(upper));
     if (exact) {
@@ -165,11 +165,11 @@ void add_matching(const std::string& type, const char* face, bool exact, CaseRes
 /// The same mesh on both sides, Gauss points that integrate the slave's shape functions exactly:
 /// every face type passes.
 void add_matching_gauss(const std::string& type, const char* face, CaseResult& out, double& balance,
-                        int threads) {
+                        const Workers& workers) {
   Patch p;
   p.lower_type = p.upper_type = type;
   p.sampling = "{gauss: 2}";
-  const Errors e = patch_errors(p, threads);
+  const Errors e = patch_errors(p, workers);
   balance = std::max(balance, e.balance);
   out.rows.push_back({fmt::format("{} ({}), matching, {}: largest error of pressure and stress",
                                   type, face, p.sampling),
@@ -178,7 +178,7 @@ void add_matching_gauss(const std::string& type, const char* face, CaseResult& o
 
 /// 3 x 3 cells against 4 x 4, turned against each other.
 void add_other_mesh(const std::string& type, const char* face, const std::string& sampling,
-                    CaseResult& out, double& balance, int threads) {
+                    CaseResult& out, double& balance, const Workers& workers) {
   for (const bool upper : {true, false}) {
     Patch p;
     p.lower_type = p.upper_type = type;
@@ -187,7 +187,7 @@ void add_other_mesh(const std::string& type, const char* face, const std::string
     p.confined = true;
     p.upper_is_slave = upper;
     p.sampling = sampling;
-    const Errors e = patch_errors(p, threads);
+    const Errors e = patch_errors(p, workers);
     if (e.converged) balance = std::max(balance, e.balance);
     const std::string name =
         fmt::format("{} ({}), 3 x 3 against 4 x 4, {}, {}: ", type, face, sampling, role(upper));
@@ -213,7 +213,7 @@ struct Kind {
 /// The same for different faces on both sides: one row with the largest error of pressure and
 /// stress.
 void add_other_faces(const Kind& lower, const Kind& upper, const std::string& sampling,
-                     CaseResult& out, double& balance, int threads) {
+                     CaseResult& out, double& balance, const Workers& workers) {
   for (const bool upper_is_slave : {true, false}) {
     Patch p;
     p.lower_type = lower.type;
@@ -223,7 +223,7 @@ void add_other_faces(const Kind& lower, const Kind& upper, const std::string& sa
     p.confined = true;
     p.upper_is_slave = upper_is_slave;
     p.sampling = sampling;
-    const Errors e = patch_errors(p, threads);
+    const Errors e = patch_errors(p, workers);
     if (e.converged) balance = std::max(balance, e.balance);
     const bool mortar = sampling == "mortar";
     const std::string name = fmt::format("{} under {}, 3 x 3 against 4 x 4, {}, {}: ", lower.face,
@@ -249,19 +249,19 @@ CaseResult contact_patch_space(const CaseContext& context) {
                                        {"wedge15", "tri6", false}}};
   CaseResult out;
   double balance = 0;
-  for (const Kind& k : kinds) add_matching(k.type, k.face, k.exact, out, balance, context.threads);
-  for (const Kind& k : kinds) add_matching_gauss(k.type, k.face, out, balance, context.threads);
+  for (const Kind& k : kinds) add_matching(k.type, k.face, k.exact, out, balance, context.workers);
+  for (const Kind& k : kinds) add_matching_gauss(k.type, k.face, out, balance, context.workers);
   for (const Kind& k : kinds)
     for (const char* const sampling :
          {"nodes", "{gauss: 2}", "{gauss: 4}", "{lobatto: 3}", "{gauss: 2, segments: true}",
           "{gauss: 3, segments: true}", "mortar"})
-      add_other_mesh(k.type, k.face, sampling, out, balance, context.threads);
+      add_other_mesh(k.type, k.face, sampling, out, balance, context.workers);
   for (const std::size_t lower : {0, 1, 2, 4, 5})
     for (const std::size_t upper : {0, 1, 2, 4, 5})
       for (const char* const sampling :
            {"nodes", "{gauss: 2}", "{lobatto: 3}", "{gauss: 3, segments: true}", "mortar"})
         if (lower < upper)
-          add_other_faces(kinds[lower], kinds[upper], sampling, out, balance, context.threads);
+          add_other_faces(kinds[lower], kinds[upper], sampling, out, balance, context.workers);
   out.rows.push_back({"largest unbalance of forces / load, all of the above", balance, 1e-11,
                       Relation::at_most, 0, "equilibrium"});
   return out;

@@ -64,7 +64,7 @@ struct Found {
   double normal_force = 0;
 };
 
-Found solve_rods(const Rods& r, int threads) {
+Found solve_rods(const Rods& r, const Workers& workers) {
   Found out;
   const auto place = [&](mesh::Mesh& m) {
     std::vector<bool> upper(m.nodes.size(), false);
@@ -92,7 +92,7 @@ Found solve_rods(const Rods& r, int threads) {
     for (const auto& point : s.system.contact()[0].points)
       if (point.history.edge >= 0) out.law -= penalty * point.weight * point.gap;
   };
-  const model::AnalysisResult3 result = run_text3(model_text(r), threads, look, {place, {}});
+  const model::AnalysisResult3 result = run_text3(model_text(r), workers, look, {place, {}});
   out.converged = result.outcome == solve::Outcome::converged;
   return out;
 }
@@ -118,7 +118,7 @@ CaseResult crossed_edges(const CaseContext& context) {
     for (const bool turned : {false, true}) {
       Rods r = upright;
       if (turned) r.turn = turn;
-      const Found found = solve_rods(r, context.threads);
+      const Found found = solve_rods(r, context.workers);
       const Vec3 expected = closed_form(r);
       const double error = found.converged ? (found.force - expected).norm() / expected.norm() : 1;
       out.rows.push_back(
@@ -129,7 +129,7 @@ CaseResult crossed_edges(const CaseContext& context) {
   Rods elastic;
   elastic.elastic = true;
   elastic.depth = 0;
-  const Found found = solve_rods(elastic, context.threads);
+  const Found found = solve_rods(elastic, context.workers);
   const double force = found.converged ? found.force.z() : 0;
   out.rows.push_back({"elastic rods bent over each other: force on the supports / contact force",
                       found.support / force, 1, Relation::equal, 1e-8, "equilibrium"});
@@ -137,7 +137,7 @@ CaseResult crossed_edges(const CaseContext& context) {
                       found.law / found.normal_force, 1, Relation::equal, 1e-10, "closed form"});
   out.rows.push_back({"elastic rods: contact force", force, 0, Relation::info, 0, ""});
   elastic.edges = false;
-  const Found nodes = solve_rods(elastic, context.threads);
+  const Found nodes = solve_rods(elastic, context.workers);
   out.rows.push_back({"elastic rods without edges: contact force (the nodes see nothing)",
                       nodes.converged ? nodes.force.norm() : 1, 0, Relation::info, 0, ""});
   return out;

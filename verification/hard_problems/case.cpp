@@ -45,7 +45,7 @@ void add_remedies(const CaseContext& context, const std::vector<HardOutcome>& wi
     int required = 0, both = 0, before = 0, after = 0;
     for (std::size_t i = 0; i < problems.size(); ++i) {
       const HardOutcome without =
-          run_hard(context.folder, problems[i], context.threads, remedy.without);
+          run_hard(context.folder, problems[i], context.workers, remedy.without);
       if (as_required(problems[i], without)) ++required;
       if (!with[i].finished || !without.finished) continue;
       ++both;
@@ -84,7 +84,7 @@ CaseResult run_selection(const CaseContext& context, bool all) {
   int required = 0;
   for (const HardProblem& problem : hard_problems_list()) {
     if (!all && !problem.quick) continue;
-    outcomes.push_back(run_hard(context.folder, problem, context.threads));
+    outcomes.push_back(run_hard(context.folder, problem, context.workers));
     add_rows(problem, outcomes.back(), result);
     if (as_required(problem, outcomes.back())) ++required;
   }

@@ -51,9 +51,9 @@ const std::vector<HardProblem>& hard_problems_list() {  // long: the one list
 namespace {
 
 template <int Dim>
-HardOutcome run_built(deck::BasicBuilt<Dim>& built, int threads,
+HardOutcome run_built(deck::BasicBuilt<Dim>& built, const Workers& workers,
                       const std::function<void(model::AnalysisOptions&)>& edit) {
-  built.options.threads = threads;
+  workers.work_on(built.options);
   if (edit) edit(built.options);
   HardOutcome out;
   const model::BasicAnalysisObserver<Dim> nobody;
@@ -72,10 +72,10 @@ HardOutcome run_built(deck::BasicBuilt<Dim>& built, int threads,
 
 }  // namespace
 
-HardOutcome run_hard(const std::string& folder, const HardProblem& problem, int threads,
+HardOutcome run_hard(const std::string& folder, const HardProblem& problem, const Workers& workers,
                      const std::function<void(model::AnalysisOptions&)>& edit) {
   deck::AnyBuilt any = deck::build_any_file(folder + "/" + std::string(problem.name) + ".yaml");
-  return std::visit([&](auto& built) { return run_built(built, threads, edit); }, any);
+  return std::visit([&](auto& built) { return run_built(built, workers, edit); }, any);
 }
 
 UnitsOutcome run_in_units(double length, double force) {

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "../workers.hpp"
 #include "osculate/model/analysis.hpp"
 
 namespace osculate::verification {
@@ -28,7 +29,7 @@ struct HardOutcome {
 
 /// Runs NAME.yaml of `folder` with its own settings; `edit` may change those of the step control.
 [[nodiscard]] HardOutcome run_hard(const std::string& folder, const HardProblem& problem,
-                                   int threads,
+                                   const Workers& workers,
                                    const std::function<void(model::AnalysisOptions&)>& edit = {});
 
 /// Iterations of each increment and a hash of the states in each, of two blocks pressed and sheared

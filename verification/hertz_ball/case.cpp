@@ -168,7 +168,7 @@ double zero_of_line(const std::vector<Vec2>& points) {
   return mean.x() - mean.y() * spread / slope;
 }
 
-Hertz run_mesh(const Mesh& mesh, int threads) {
+Hertz run_mesh(const Mesh& mesh, const Workers& workers) {
   Hertz out;
   out.curve = {mesh.name, {"r", "pressure", "hertz"}, {}};
   const auto look = [&](const Snapshot3& s) {
@@ -214,7 +214,7 @@ Hertz run_mesh(const Mesh& mesh, int threads) {
   Edits3 edits;
   edits.model = [&](deck::Built3& built) { add_far_field(mesh, built); };
   if (!mesh.radii.empty()) edits.mesh = [&](mesh::Mesh& m) { m = DiscMesh(disc_of(mesh)).take(); };
-  const model::AnalysisResult3 result = run_text3(model_text(mesh), threads, look, edits);
+  const model::AnalysisResult3 result = run_text3(model_text(mesh), workers, look, edits);
   if (result.outcome != solve::Outcome::converged) throw std::runtime_error(result.message);
   return out;
 }
@@ -271,25 +271,25 @@ CaseResult hertz_ball(const CaseContext& context) {
   const Mesh graded{"hex27, 3 cells to 0.55, 0.88, 1", 3, "hex27", {0.55, 0.88, 1}};
   const Mesh halved{"hex27, 6 cells, those halved", 6, "hex27", {0.55, 0.715, 0.88, 0.94, 1}, 2};
 
-  const Hertz h = run_mesh(equal_cells, context.threads);
+  const Hertz h = run_mesh(equal_cells, context.workers);
   add(out, equal_cells.name + ": pressure L2 error, nodes", h.nodal, 0.035, at_most, 0);
   add(out, equal_cells.name + ": pressure L2 error, faces, against Hertz's values at the nodes",
       h.l2, h.sampled, at_most, 0);
   add_checks(equal_cells, h, out);
 
-  const Hertz g = run_mesh(graded, context.threads);
+  const Hertz g = run_mesh(graded, context.workers);
   add(out, graded.name + ": pressure L2 error, faces", g.l2, 0.035, at_most, 0);
   add(out, graded.name + ": pressure L2 error, nodes", g.nodal, 0.035, at_most, 0);
   add_checks(graded, g, out);
 
-  const Hertz f = run_mesh(halved, context.threads);
+  const Hertz f = run_mesh(halved, context.workers);
   add_numbers(halved, f, out);
   add(out, "graded: convergence rate from 3 to 6 cells, faces", std::log2(g.l2 / f.l2), 1, info, 0);
   for (const Mesh& mesh :
        {Mesh{"hex8, 3 equal cells", 3, "hex8", {}}, Mesh{"hex8, 6 equal cells", 6, "hex8", {}},
         Mesh{"hex20, 3 equal cells", 3, "hex20", {}},
         Mesh{"hex27, 3 equal rings", 3, "hex27", {1.0 / 3, 2.0 / 3, 1}}})
-    add_numbers(mesh, run_mesh(mesh, context.threads), out);
+    add_numbers(mesh, run_mesh(mesh, context.workers), out);
   out.curves = {h.curve, g.curve};
   out.pictures.push_back(profile(out.curves));
   out.curves[0].name = "pressure_equal";

@@ -62,7 +62,7 @@ struct Outcome {
   std::vector<double> at, tangential, normal;  ///< of the drag
 };
 
-Outcome run(const Ironing& p, int threads) {
+Outcome run(const Ironing& p, const Workers& workers) {
   Outcome out;
   const auto look = [&](const Snapshot3& s) {
     if (!s.record) return;
@@ -82,7 +82,7 @@ Outcome run(const Ironing& p, int threads) {
   };
   const Edits3 edits{[](mesh::Mesh& m) { bend(m); }, {}};
   out.finished =
-      run_text3(model_text(p), threads, look, edits).outcome == solve::Outcome::converged;
+      run_text3(model_text(p), workers, look, edits).outcome == solve::Outcome::converged;
   return out;
 }
 
@@ -119,10 +119,10 @@ void add(CaseResult& out, std::string quantity, double computed, double referenc
   out.rows.push_back({std::move(quantity), computed, reference, relation, tolerance, source});
 }
 
-Outcome add_run(CaseResult& out, const std::string& name, const Ironing& p, int threads,
+Outcome add_run(CaseResult& out, const std::string& name, const Ironing& p, const Workers& workers,
                 Relation end = Relation::equal) {
   using enum Relation;
-  Outcome o = run(p, threads);
+  Outcome o = run(p, workers);
   add(out, name + ": runs to the end", o.finished ? 1 : 0, 1, end, 0, "");
   if (!o.finished) return o;
   add(out, name + ": iterations", o.iterations, 0, info, 0, "");
@@ -136,13 +136,13 @@ Outcome add_run(CaseResult& out, const std::string& name, const Ironing& p, int 
 
 /// Points of a sampling on smooth masters: the stiff punch under the slab's points, and the slab
 /// under the punch's, where flat facets let points flip between two of them for ever.
-void add_smoothed(CaseResult& out, int threads) {
+void add_smoothed(CaseResult& out, const Workers& workers) {
   add_run(out, "20 x 6 x 5 cells, {gauss: 2}, smoothed punch",
-          {.sampling = "{gauss: 2}", .smoothing = "hermite"}, threads);
+          {.sampling = "{gauss: 2}", .smoothing = "hermite"}, workers);
   Ironing p{.sampling = "{gauss: 3}", .slab_is_slave = false, .slab = {80, 2, 5}, .punch = {60, 2}};
-  add_run(out, "80 x 2 x 5 cells, {gauss: 3}, punch slave", p, threads, Relation::info);
+  add_run(out, "80 x 2 x 5 cells, {gauss: 3}, punch slave", p, workers, Relation::info);
   p.smoothing = "hermite";
-  add_run(out, "80 x 2 x 5 cells, {gauss: 3}, punch slave, smoothed slab", p, threads);
+  add_run(out, "80 x 2 x 5 cells, {gauss: 3}, punch slave, smoothed slab", p, workers);
 }
 
 }  // namespace
@@ -152,15 +152,15 @@ CaseResult ironing(const CaseContext& context) {
   CaseResult out;
   for (const char* const sampling : {"nodes", "{gauss: 2}", "{lobatto: 3}", "mortar"})
     add_run(out, fmt::format("20 x 6 x 5 cells, {}", sampling), {.sampling = sampling},
-            context.threads);
+            context.workers);
   add_run(out, "20 x 6 x 5 cells, mortar, punch slave",
-          {.sampling = "mortar", .slab_is_slave = false}, context.threads);
-  add_smoothed(out, context.threads);
+          {.sampling = "mortar", .slab_is_slave = false}, context.workers);
+  add_smoothed(out, context.workers);
   Ironing best{.sampling = "mortar", .slab = {40, 4, 5}, .punch = {32, 4}};
-  const Outcome whole = add_run(out, "40 x 4 x 5 cells, mortar", best, context.threads);
+  const Outcome whole = add_run(out, "40 x 4 x 5 cells, mortar", best, context.workers);
   best.refine = 2;
   const Outcome half =
-      add_run(out, "40 x 4 x 5 cells, mortar, half increments", best, context.threads);
+      add_run(out, "40 x 4 x 5 cells, mortar, half increments", best, context.workers);
   if (!whole.finished || !half.finished) return out;
   add(out, "40 x 4 x 5 cells, mortar: oscillation of the tangential force",
       oscillation(whole.at, whole.tangential), 0.003, at_most, 0, "required");

@@ -31,20 +31,20 @@ const char* name_of(ClipKind kind) {
 
 constexpr const char* mirror = "lower half on a rigid plane";
 
-ClipOutcome checked_run(const Clip& clip, const ClipStudy& study, int threads) {
-  ClipOutcome out = run_clip(clip, study, threads);
+ClipOutcome checked_run(const Clip& clip, const ClipStudy& study, const Workers& workers) {
+  ClipOutcome out = run_clip(clip, study, workers);
   const double none = std::numeric_limits<double>::infinity();
   if (!out.converged) out.closing = out.contact = out.area = none;
   return out;
 }
 
 /// Lips that stay flat and whose nodes meet: nothing is left of the mesh.
-void add_columns(bool space, int threads, CaseResult& result) {
+void add_columns(bool space, const Workers& workers, CaseResult& result) {
   const Clip clip = clip_with_columns();
   const double force = column_force(clip), area = clip.to - clip.from;
-  const ClipOutcome half = checked_run(clip, {ClipKind::half, space}, threads);
+  const ClipOutcome half = checked_run(clip, {ClipKind::half, space}, workers);
   for (const ClipKind kind : {ClipKind::half, ClipKind::own, ClipKind::all, ClipKind::sides}) {
-    const ClipOutcome out = checked_run(clip, {kind, space}, threads);
+    const ClipOutcome out = checked_run(clip, {kind, space}, workers);
     const std::string what =
         fmt::format("flat lips in {}, {}: ", space ? "space" : "the plane", name_of(kind));
     result.rows.push_back({what + "contact force", out.contact, force, Relation::equal, 1e-8,
@@ -58,12 +58,12 @@ void add_columns(bool space, int threads, CaseResult& result) {
 }
 
 /// Rounded lips on finer and finer meshes.
-void add_refined(ClipKind kind, const std::array<ClipOutcome, 3>& half, int threads,
+void add_refined(ClipKind kind, const std::array<ClipOutcome, 3>& half, const Workers& workers,
                  CaseResult& result) {
   const std::string what = fmt::format("rounded lips in the plane, {}: ", name_of(kind));
   std::array<double, 3> closing{}, contact{}, area{};
   for (std::size_t i = 0; i < half.size(); ++i) {
-    const ClipOutcome out = checked_run(Clip{}, {kind, false, 1 << i}, threads);
+    const ClipOutcome out = checked_run(Clip{}, {kind, false, 1 << i}, workers);
     closing[i] = std::abs(out.closing / half[i].closing - 1);
     contact[i] = std::abs(out.contact / half[i].contact - 1);
     area[i] = std::abs(out.area / half[i].area - 1);
@@ -83,18 +83,18 @@ void add_refined(ClipKind kind, const std::array<ClipOutcome, 3>& half, int thre
                          mirror});
 }
 
-void add_rounded_in_plane(int threads, CaseResult& result) {
+void add_rounded_in_plane(const Workers& workers, CaseResult& result) {
   std::array<ClipOutcome, 3> half;
   for (std::size_t i = 0; i < half.size(); ++i)
-    half[i] = checked_run(Clip{}, {ClipKind::half, false, 1 << i}, threads);
+    half[i] = checked_run(Clip{}, {ClipKind::half, false, 1 << i}, workers);
   for (const ClipKind kind : {ClipKind::own, ClipKind::sides})
-    add_refined(kind, half, threads, result);
+    add_refined(kind, half, workers, result);
 }
 
 /// One-sided pairs in space need a finer mesh, and friction.
-void add_one_sided_in_space(const ClipOutcome& half, int threads, CaseResult& result) {
+void add_one_sided_in_space(const ClipOutcome& half, const Workers& workers, CaseResult& result) {
   const auto run = [&](ClipKind kind, int refine) {
-    return checked_run(Clip{}, {kind, true, refine, 0.3}, threads);
+    return checked_run(Clip{}, {kind, true, refine, 0.3}, workers);
   };
   const ClipOutcome coarse = run(ClipKind::sides, 1), fine = run(ClipKind::sides, 2);
   const ClipOutcome half_fine = run(ClipKind::half, 2);
@@ -110,10 +110,10 @@ void add_one_sided_in_space(const ClipOutcome& half, int threads, CaseResult& re
 }
 
 /// In space on a coarse mesh, with friction that holds the lips on each other.
-void add_rounded_in_space(int threads, CaseResult& result) {
-  const ClipOutcome half = checked_run(Clip{}, {ClipKind::half, true}, threads);
+void add_rounded_in_space(const Workers& workers, CaseResult& result) {
+  const ClipOutcome half = checked_run(Clip{}, {ClipKind::half, true}, workers);
   const auto add = [&](ClipKind kind, double mu, Relation relation, double limit) {
-    const ClipOutcome out = checked_run(Clip{}, {kind, true, 1, mu}, threads);
+    const ClipOutcome out = checked_run(Clip{}, {kind, true, 1, mu}, workers);
     const std::string what = fmt::format("rounded lips in space, {}{}: ", name_of(kind),
                                          mu > 0 ? ", friction" : ", no friction");
     result.rows.push_back(
@@ -125,7 +125,7 @@ void add_rounded_in_space(int threads, CaseResult& result) {
   add(ClipKind::own, 0.3, Relation::equal, 1e-3);
   add(ClipKind::all, 0.3, Relation::equal, 1e-3);
   add(ClipKind::sides, 0, Relation::info, 0);
-  add_one_sided_in_space(half, threads, result);
+  add_one_sided_in_space(half, workers, result);
 }
 
 // ---- three blocks on top of each other --------------------------------------------------------
@@ -227,10 +227,10 @@ double stack_difference() {
 
 CaseResult self_contact(const CaseContext& context) {
   CaseResult result;
-  add_columns(false, context.threads, result);
-  add_columns(true, context.threads, result);
-  add_rounded_in_plane(context.threads, result);
-  add_rounded_in_space(context.threads, result);
+  add_columns(false, context.workers, result);
+  add_columns(true, context.workers, result);
+  add_rounded_in_plane(context.workers, result);
+  add_rounded_in_space(context.workers, result);
   const char* const source = "the same with two explicit pairs of two passes";
   result.rows.push_back({"three blocks in the plane, contact: all: displacements",
                          row_difference<2>(), 1e-12, Relation::at_most, 0, source});

@@ -192,7 +192,7 @@ void add_sides(mesh::Mesh& mesh, const Clip& clip) {
 }
 
 template <int Dim>
-ClipOutcome run_in(const Clip& clip, const ClipStudy& study, int threads) {
+ClipOutcome run_in(const Clip& clip, const ClipStudy& study, const Workers& workers) {
   const deck::Description d = deck::parse_model(clip_text(clip, study), "clip.yaml");
   mesh::Mesh mesh = deck::load_mesh(d);
   cut_columns(mesh, clip, study.space);
@@ -203,7 +203,7 @@ ClipOutcome run_in(const Clip& clip, const ClipStudy& study, int threads) {
     x = study.space ? Vec3(p.x(), x.y(), p.y()) : Vec3(p.x(), p.y(), 0);
   }
   auto built = std::get<deck::BasicBuilt<Dim>>(deck::build_any(d, std::move(mesh)));
-  built.options.threads = threads;
+  workers.work_on(built.options);
   ClipOutcome out;
   model::BasicAnalysisObserver<Dim> observer;
   observer.converged = [&](model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,
@@ -223,8 +223,8 @@ ClipOutcome run_in(const Clip& clip, const ClipStudy& study, int threads) {
 
 }  // namespace
 
-ClipOutcome run_clip(const Clip& clip, const ClipStudy& study, int threads) {
-  return study.space ? run_in<3>(clip, study, threads) : run_in<2>(clip, study, threads);
+ClipOutcome run_clip(const Clip& clip, const ClipStudy& study, const Workers& workers) {
+  return study.space ? run_in<3>(clip, study, workers) : run_in<2>(clip, study, workers);
 }
 
 }  // namespace osculate::verification

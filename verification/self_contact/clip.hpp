@@ -4,6 +4,7 @@
 #include <numbers>
 #include <vector>
 
+#include "../workers.hpp"
 #include "osculate/core/types.hpp"
 
 namespace osculate::verification {
@@ -53,6 +54,7 @@ struct ClipOutcome {
   double closing = 0, contact = 0, area = 0;  ///< force on the loaded nodes; of the contact; area
 };
 
-[[nodiscard]] ClipOutcome run_clip(const Clip& clip, const ClipStudy& study, int threads);
+[[nodiscard]] ClipOutcome run_clip(const Clip& clip, const ClipStudy& study,
+                                   const Workers& workers);
 
 }  // namespace osculate::verification

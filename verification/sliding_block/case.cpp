@@ -107,7 +107,7 @@ Run run_block(const CaseContext& context, const std::string& model_file, const E
   };
   const model::AnalysisResult result =
       run_model(context.folder + "/" + model_file, look, [&](deck::Built& built) {
-        built.options.threads = context.threads;
+        context.workers.work_on(built.options);
         if (edit) edit(built);
         model = &built.model;
         bottom = left_to_right(built.model, "block.bottom");

@@ -45,7 +45,7 @@ struct Study {
   const char* x_label;
   std::vector<Quantity> quantities;
   std::vector<ListedMesh> meshes;
-  std::function<std::vector<double>(const ListedMesh&, int threads)> run;
+  std::function<std::vector<double>(const ListedMesh&, const Workers& workers)> run;
 };
 
 const char* name_of(CellType type) { return type == CellType::hex8 ? "hex8" : "shell18"; }
@@ -103,10 +103,10 @@ void add_picture(const Study& study, const std::vector<std::vector<double>>& val
   result.pictures.push_back({study.name, plot});
 }
 
-void add_study(const Study& study, bool picture, int threads, CaseResult& result) {
+void add_study(const Study& study, bool picture, const Workers& workers, CaseResult& result) {
   std::vector<std::vector<double>> values;
   for (const ListedMesh& mesh : study.meshes) {
-    values.push_back(study.run(mesh, threads));
+    values.push_back(study.run(mesh, workers));
     if (mesh.listed.empty()) continue;
     for (std::size_t k = 0; k < study.quantities.size(); ++k) {
       const Quantity& q = study.quantities[k];
@@ -143,9 +143,9 @@ Study cantilever() {
            {shell18, 4, 1, {}},
            {shell18, 8, 1, {3.290, 6.700}},
            {shell18, 16, 1, {}}},
-          [](const ListedMesh& m, int threads) {
+          [](const ListedMesh& m, const Workers& workers) {
             const ShellProblem p = shell::cantilever(m.type, m.cells);
-            const Vec3 tip = tip_of(p, shell::solve(p, 10, threads).at(1));
+            const Vec3 tip = tip_of(p, shell::solve(p, 10, workers).at(1));
             return std::vector<double>{-tip.x(), tip.z()};
           }};
 }
@@ -166,9 +166,9 @@ Study roll_up() {
            {shell18, 4, 1, {}},
            {shell18, 8, 1, {-11.974}},
            {shell18, 16, 1, {-11.983}}},
-          [](const ListedMesh& m, int threads) {
+          [](const ListedMesh& m, const Workers& workers) {
             const ShellProblem p = shell::roll_up(m.type, m.cells);
-            const ShellPath path = shell::solve(p, 40, threads);
+            const ShellPath path = shell::solve(p, 40, workers);
             const Vec3 tip = tip_of(p, path.at(1)), half = tip_of(p, path.at(0.5));
             return std::vector<double>{tip.x(), tip.z(), half.x(), half.z()};
           }};
@@ -189,9 +189,9 @@ Study pinched_cylinder() {
            {shell18, 4, 4, {}},
            {shell18, 8, 8, {0.9985}},
            {shell18, 16, 16, {1.008}}},
-          [](const ListedMesh& m, int threads) {
+          [](const ListedMesh& m, const Workers& workers) {
             const ShellProblem p = shell::pinched_cylinder(m.type, m.cells);
-            const Vec3 u = mid_displacement(p.mesh, shell::solve(p, 1, threads).at(1), 0, 0);
+            const Vec3 u = mid_displacement(p.mesh, shell::solve(p, 1, workers).at(1), 0, 0);
             return std::vector<double>{-u.x() / 1.8248e-5};
           }};
 }
@@ -211,9 +211,9 @@ Study scordelis_lo() {
            {shell18, 4, 4, {}},
            {shell18, 8, 8, {0.995}},
            {shell18, 16, 16, {}}},
-          [](const ListedMesh& m, int threads) {
+          [](const ListedMesh& m, const Workers& workers) {
             const ShellProblem p = shell::scordelis_lo(m.type, m.cells);
-            return std::vector<double>{-tip_of(p, shell::solve(p, 1, threads).at(1)).z() / 0.3024};
+            return std::vector<double>{-tip_of(p, shell::solve(p, 1, workers).at(1)).z() / 0.3024};
           }};
 }
 
@@ -232,10 +232,10 @@ Study hemisphere_linear() {
            {shell18, 4, 4, {}},
            {shell18, 8, 8, {0.09305}},
            {shell18, 16, 16, {0.09347}}},
-          [](const ListedMesh& m, int threads) {
+          [](const ListedMesh& m, const Workers& workers) {
             const ShellProblem p =
                 shell::hemisphere(m.type, m.cells, shell::linear(6.825e7, 0.3), 2);
-            const Eigen::VectorXd u = shell::solve(p, 1, threads).at(1);
+            const Eigen::VectorXd u = shell::solve(p, 1, workers).at(1);
             return std::vector<double>{mid_displacement(p.mesh, u, 0, 0).x()};
           }};
 }
@@ -248,10 +248,10 @@ Study hemisphere_finite(std::vector<ListedMesh> meshes) {
           "cells a side of the meshed quarter",
           {{"outwards", 4.067}, {"inwards", 8.178}},
           std::move(meshes),
-          [](const ListedMesh& m, int threads) {
+          [](const ListedMesh& m, const Workers& workers) {
             const ShellProblem p =
                 shell::hemisphere(m.type, m.cells, shell::finite(6.825e7, 0.3), 400);
-            const Eigen::VectorXd u = shell::solve(p, 10, threads).at(1);
+            const Eigen::VectorXd u = shell::solve(p, 10, workers).at(1);
             return std::vector<double>{mid_displacement(p.mesh, u, 0, 0).x(),
                                        -mid_displacement(p.mesh, u, p.mesh.end_u(), 0).y()};
           }};
@@ -284,9 +284,9 @@ Study slit_plate(std::vector<ListedMesh> meshes, SlitPath& path) {
            {"A at 0.5 P", 10.468, 0, false},
            {"B at 0.5 P", 13.768, 0, false}},
           std::move(meshes),
-          [&path](const ListedMesh& m, int threads) {
+          [&path](const ListedMesh& m, const Workers& workers) {
             const ShellProblem p = shell::slit_plate(m.type, m.cells, m.across);
-            const ShellPath found = shell::solve(p, 20, threads);
+            const ShellPath found = shell::solve(p, 20, workers);
             std::vector<double> values = corners(p, found.at(1));
             for (const double part : parts)
               for (const double value : corners(p, found.at(part))) values.push_back(value);
@@ -330,19 +330,19 @@ constexpr std::array<PatchState, 3> patch_states{
      {"bending, nu 0", shell::PlateState::bending, 0}}};
 
 void add_patch(const char* name, const shell::PatchMesh& mesh, CellType type, Relation relation,
-               int threads, CaseResult& result) {
+               const Workers& workers, CaseResult& result) {
   for (std::size_t k = 0; k < patch_states.size(); ++k)
     result.rows.push_back(
         {fmt::format("patch of {}, {}: {}", name, name_of(type), patch_states[k].name),
-         shell::patch_error(mesh, type, patch_states[k].state, patch_states[k].poisson, threads),
+         shell::patch_error(mesh, type, patch_states[k].state, patch_states[k].poisson, workers),
          (type == hex8 ? limits8 : limits18)[k], relation, 0,
          "exact state; limit: independent program"});
 }
 
 /// Cells with curved sides, in which shell18 is not exact, refined.
-void add_patch_convergence(int threads, CaseResult& result) {
+void add_patch_convergence(const Workers& workers, CaseResult& result) {
   const shell::PatchMesh mesh = shell::bent(shell::five_cells(), 0.05);
-  add_patch("five with curved sides", mesh, shell18, Relation::info, threads, result);
+  add_patch("five with curved sides", mesh, shell18, Relation::info, workers, result);
   io::LinePlot plot{"Patch of five cells with curved sides refined, shell18",
                     {"cells along a side of a quadrilateral", true, {1, 2, 4, 8}},
                     {"largest error / largest displacement", true, {}},
@@ -352,7 +352,7 @@ void add_patch_convergence(int threads, CaseResult& result) {
     Points points;
     for (const int n : {1, 2, 4, 8})
       points.add(n, shell::patch_error(shell::refined(mesh, n), shell18, state.state, state.poisson,
-                                       threads));
+                                       workers));
     const double order = std::log2(points.y[2] / points.y[3]);
     result.rows.push_back(
         {fmt::format("patch of five with curved sides refined, shell18: {}, order", state.name),
@@ -366,22 +366,22 @@ void add_patch_convergence(int threads, CaseResult& result) {
 
 CaseResult solid_shell(const CaseContext& context) {
   CaseResult result;
-  const int threads = context.threads;
+  const Workers workers = context.workers;
   for (const CellType type : {hex8, shell18}) {
-    add_patch("five", shell::five_cells(), type, Relation::at_most, threads, result);
+    add_patch("five", shell::five_cells(), type, Relation::at_most, workers, result);
     for (const double shift : {0.05, 0.2})
       add_patch(fmt::format("four, shift {}", shift).c_str(), shell::four_cells(shift), type,
-                Relation::at_most, threads, result);
+                Relation::at_most, workers, result);
   }
-  add_patch_convergence(threads, result);
+  add_patch_convergence(workers, result);
   for (const Study& study :
        {cantilever(), roll_up(), pinched_cylinder(), scordelis_lo(), hemisphere_linear()})
-    add_study(study, true, threads, result);
+    add_study(study, true, workers, result);
   add_study(hemisphere_finite({{hex8, 16, 16, {3.968, 7.818}}, {shell18, 8, 8, {4.023, 7.969}}}),
-            false, threads, result);
+            false, workers, result);
   SlitPath path;
   add_study(slit_plate({{hex8, 30, 6, {13.168, 16.813}}, {shell18, 15, 3, {13.483, 17.121}}}, path),
-            false, threads, result);
+            false, workers, result);
   return result;
 }
 
@@ -393,7 +393,7 @@ CaseResult solid_shell_fine(const CaseContext& context) {
                                {shell18, 4, 4, {}},
                                {shell18, 8, 8, {4.023, 7.969}},
                                {shell18, 16, 16, {}}}),
-            true, context.threads, result);
+            true, context.workers, result);
   SlitPath path;
   const Study slit = slit_plate({{hex8, 15, 3, {}},
                                  {hex8, 30, 6, {13.168, 16.813}},
@@ -402,7 +402,7 @@ CaseResult solid_shell_fine(const CaseContext& context) {
                                  {shell18, 15, 3, {13.483, 17.121}},
                                  {shell18, 30, 5, {13.794, 17.431}}},
                                 path);
-  add_study(slit, true, context.threads, result);
+  add_study(slit, true, context.workers, result);
   add_slit_picture(slit, path, result);
   return result;
 }

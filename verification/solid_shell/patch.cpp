@@ -114,7 +114,7 @@ PatchMesh bent(PatchMesh mesh, double bend) {
 }
 
 double patch_error(const PatchMesh& mesh, cell::CellType type, PlateState state, double poisson,
-                   int threads) {
+                   const Workers& workers) {
   Builder3 b;
   model::BulkSection3 section;
   section.name = "plate";
@@ -133,7 +133,7 @@ double patch_error(const PatchMesh& mesh, cell::CellType type, PlateState state,
   }
   b.model.steps.push_back(step);
   model::AnalysisOptions options;
-  options.threads = threads;
+  workers.work_on(options);
   const model::AnalysisResult3 result = model::run(b.model, options, {});
   if (result.outcome != solve::Outcome::converged) throw std::runtime_error(result.message);
   double error = 0, largest = 0;

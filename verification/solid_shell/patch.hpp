@@ -32,6 +32,6 @@ enum class PlateState { membrane, bending };
 /// Largest error of a displacement inside, relative to the largest displacement of all, when the
 /// border moves as the exact solution (plane stress; Kirchhoff's plate) does.
 [[nodiscard]] double patch_error(const PatchMesh& mesh, cell::CellType type, PlateState state,
-                                 double poisson, int threads);
+                                 double poisson, const Workers& workers);
 
 }  // namespace osculate::verification::shell

@@ -70,10 +70,10 @@ const Eigen::VectorXd& ShellPath::at(double wanted) const {
   throw std::runtime_error(fmt::format("no increment ends at {}", wanted));
 }
 
-ShellPath solve(const ShellProblem& problem, int increments, int threads) {
+ShellPath solve(const ShellProblem& problem, int increments, const Workers& workers) {
   const model::Model3 m = to_model(problem, increments);
   model::AnalysisOptions options;
-  options.threads = threads;
+  workers.work_on(options);
   ShellPath path;
   model::AnalysisObserver3 observer;
   observer.converged = [&](model::System3&, const model::State3& state,

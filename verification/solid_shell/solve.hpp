@@ -27,6 +27,6 @@ struct ShellPath {
 /// Solves with the defaults of the product and `increments` load steps.
 ///
 /// Errors     std::runtime_error with the message of the analysis where it does not converge
-[[nodiscard]] ShellPath solve(const ShellProblem& problem, int increments, int threads);
+[[nodiscard]] ShellPath solve(const ShellProblem& problem, int increments, const Workers& workers);
 
 }  // namespace osculate::verification::shell

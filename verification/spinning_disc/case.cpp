@@ -43,7 +43,7 @@ struct PlateState {
   double time = 0, angle = 0, rate = 0, friction = 0;
 };
 
-std::vector<PlateState> plate_path(const std::string& text, int threads) {
+std::vector<PlateState> plate_path(const std::string& text, const Workers& workers) {
   std::vector<PlateState> path;
   const Edits3 edits{[](mesh::Mesh& mesh) {
                        for (Vec3& x : mesh.nodes)
@@ -56,13 +56,13 @@ std::vector<PlateState> plate_path(const std::string& text, int threads) {
     path.push_back({rates.energies.elapsed, body::total_rotation(now.state.rigid[0]).z(),
                     rates.velocity[now.state.u.size() + 5], rates.energies.friction});
   };
-  if (run_text3(text, threads, look, edits).outcome != solve::Outcome::converged) path.clear();
+  if (run_text3(text, workers, look, edits).outcome != solve::Outcome::converged) path.clear();
   return path;
 }
 
-void add_flat(CaseResult& out, const std::string& name, const FlatDisc& d, int threads) {
+void add_flat(CaseResult& out, const std::string& name, const FlatDisc& d, const Workers& workers) {
   const double stops = stop_time(d), energy = 0.5 * inertia(d) * d.rate * d.rate;
-  const std::vector<PlateState> path = plate_path(flat_text(d, 1, 64, 60, 1.2 * stops), threads);
+  const std::vector<PlateState> path = plate_path(flat_text(d, 1, 64, 60, 1.2 * stops), workers);
   if (path.empty()) {
     expect(out, name + ": finished", 0, 1, 0, rings);
     return;
@@ -85,8 +85,8 @@ void add_flat(CaseResult& out, const std::string& name, const FlatDisc& d, int t
 
 CaseResult spinning_disc(const CaseContext& context) {
   CaseResult out;
-  add_flat(out, "flat disc", {1, 0.01, 2, 5, 0.3, 1}, context.threads);
-  add_flat(out, "flat ring", {1, 0.5, 2, 5, 0.3, 1}, context.threads);
+  add_flat(out, "flat disc", {1, 0.01, 2, 5, 0.3, 1}, context.workers);
+  add_flat(out, "flat ring", {1, 0.5, 2, 5, 0.3, 1}, context.workers);
   return out;
 }
 

@@ -47,9 +47,9 @@ End at_the_end(const std::string& text) {
   return result.outcome == solve::Outcome::converged ? end : End{};
 }
 
-End at_the_end_in_space(const std::string& text, int threads) {
+End at_the_end_in_space(const std::string& text, const Workers& workers) {
   End end;
-  const model::AnalysisResult3 result = run_text3(text, threads, [&](const Snapshot3& now) {
+  const model::AnalysisResult3 result = run_text3(text, workers, [&](const Snapshot3& now) {
     const Eigen::Index n = now.state.u.size();
     end.velocity = now.state.rates.velocity;
     end.way.setZero(n + 3 + 9);
@@ -238,7 +238,7 @@ CaseResult time_order(const CaseContext& context) {
   CaseResult out;
   const auto in_plane = [](const std::string& text) { return at_the_end(text); };
   const auto in_space = [&](const std::string& text) {
-    return at_the_end_in_space(text, context.threads);
+    return at_the_end_in_space(text, context.workers);
   };
   add_orders(
       out, "damped block",
