@@ -46,7 +46,7 @@ int voice() {
   return fd;
 }
 
-core::RanksLibrary begin(int processes) {
+la::RanksLibrary begin(int processes) {
   const std::string path =
       program_folder() + "/" OSCULATE_LIBRARIES_FROM_PROGRAM "/libosculate-mpi.so";
   if (!std::filesystem::exists(path))
@@ -57,13 +57,13 @@ core::RanksLibrary begin(int processes) {
   // Open MPI's parts look for its symbols among all that are loaded, and it does not bear
   // unloading.
   void* const library = dlopen(path.c_str(), RTLD_NOW | RTLD_GLOBAL | RTLD_NODELETE);
-  void* const found = library ? dlsym(library, core::begin_ranks) : nullptr;
+  void* const found = library ? dlsym(library, la::begin_ranks) : nullptr;
   if (!found) {
     const char* const why = dlerror();
     throw core::InputError({}, fmt::format("cannot load '{}': {}", path, why ? why : ""));
   }
-  core::RanksLibrary out;
-  reinterpret_cast<void (*)(core::RanksLibrary&)>(found)(out);
+  la::RanksLibrary out;
+  reinterpret_cast<void (*)(la::RanksLibrary&)>(found)(out);
   return out;
 }
 
@@ -88,10 +88,10 @@ void be_alone(const std::string& command) {
 int join(const std::function<int(const model::Together&)>& part) {
   const int processes = processes_started();
   if (processes <= 1) return part({});
-  const core::RanksLibrary library = begin(processes);
+  const la::RanksLibrary library = begin(processes);
   const core::Ranks& ranks = *library.ranks;
   try {
-    const int code = part({&ranks, {library.mumps, library.communicator}});
+    const int code = part({&ranks, library.solvers});
     ranks.finish();
     return code;
   } catch (const core::InputError&) {  // of all processes

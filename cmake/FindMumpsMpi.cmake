@@ -1,6 +1,7 @@
 # Finds Debian's MUMPS for several processes (libmumps-dev) beside the MPI it was built with.
 # Defines the imported target MumpsMpi::dmumps.
 find_package(MPI REQUIRED COMPONENTS C)
+find_package(PkgConfig REQUIRED)
 find_path(MUMPS_INCLUDE_DIR dmumps_c.h)
 find_library(MUMPS_MPI_LIBRARY NAMES dmumps)
 include(FindPackageHandleStandardArgs)

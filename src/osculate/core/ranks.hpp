@@ -1,6 +1,8 @@
 #pragma once
+#include <array>
+#include <bit>
 #include <cstddef>
-#include <limits>
+#include <cstdint>
 #include <span>
 #include <string>
 
@@ -48,6 +50,17 @@ class Ranks {
   }
   [[nodiscard]] bool all(bool holds) const { return largest(holds ? 0.0 : 1.0) == 0.0; }
   [[nodiscard]] bool any(bool holds) const { return largest(holds ? 1.0 : 0.0) != 0.0; }
+  /// Whether all have the same bits.
+  [[nodiscard]] bool agree_on(std::span<const double> values) const {
+    std::uint64_t mark = 14695981039346656037U;  // FNV-1a by words
+    for (const double value : values)
+      mark = (mark ^ std::bit_cast<std::uint64_t>(value)) * 1099511628211U;
+    constexpr unsigned exact = 11;  // bits of it that a number has not
+    const auto as_number = static_cast<double>(mark >> exact);
+    std::array<double, 2> bounds{as_number, -as_number};
+    largest(bounds);
+    return bounds[0] == -bounds[1];
+  }
   /// The text of process `from`.
   [[nodiscard]] std::string spread(const std::string& text, int from) const {
     std::string out = text;
@@ -62,14 +75,5 @@ class Ranks {
     return out;
   }
 };
-
-/// What the library of several processes (libosculate-mpi) hands out: they have begun then.
-struct RanksLibrary {
-  const Ranks* ranks = nullptr;              ///< of this process, until the library is unloaded
-  void (*mumps)(void* structure) = nullptr;  ///< dmumps_c of all processes
-  int communicator = 0;                      ///< as Fortran has it
-};
-/// The name of the function that hands it out, `void f(RanksLibrary&)`.
-constexpr const char* begin_ranks = "osculate_begin_ranks";
 
 }  // namespace osculate::core

@@ -45,6 +45,7 @@ void choose_linear_solver(Linear asked, const FactorLimits& limits, BasicBuilt<D
     built.linear_note = "multigrid";
   }
   built.options.linear_solver = la::make_iterative_solver;
+  built.options.by_multigrid = true;
 }
 
 template void choose_linear_solver(Linear, const FactorLimits&, Built&);

@@ -100,7 +100,8 @@ struct Condensed::Impl {
 bool Condensed::Impl::pays(const SparseMatrix& k, Symmetry symmetry) {
   constexpr double fewest = 4, worth_it = 3, most = 4000;  // 4000: a dense matrix of 128 MB
   const auto c = static_cast<double>(changing.size());
-  if (changing.empty() || c > most || fewest * c > k.n || changing.back() >= k.n) return false;
+  if (k.ranks || changing.empty() || c > most || fewest * c > k.n || changing.back() >= k.n)
+    return false;
   if (inside.is_of(k, symmetry, changing)) return true;
   pattern = mark_of(k, symmetry, changing);
   if (pattern == too_dear) {

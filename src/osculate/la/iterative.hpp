@@ -1,6 +1,7 @@
 #pragma once
 #include <memory>
 
+#include "osculate/la/engine.hpp"
 #include "osculate/la/linear_solver.hpp"
 #include "osculate/la/mumps.hpp"
 
@@ -35,7 +36,7 @@ namespace osculate::la {
 /// Tested by  tests/unit/la/test_iterative.cpp, tests/unit/deck/test_multigrid_models.cpp
 class Iterative final : public LinearSolver {
  public:
-  explicit Iterative(MumpsOptions direct = {});
+  explicit Iterative(MumpsOptions direct = {}, MakeEngine engine = make_multigrid_engine);
   ~Iterative() override;
   Iterative(const Iterative&) = delete;
   Iterative& operator=(const Iterative&) = delete;

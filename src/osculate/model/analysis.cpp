@@ -6,6 +6,8 @@
 #include <chrono>
 #include <iterator>
 
+#include "osculate/la/condensed.hpp"
+#include "osculate/la/iterative.hpp"
 #include "osculate/model/body_changes.hpp"
 #include "osculate/model/cyclic_vibrations.hpp"
 #include "osculate/model/harmonic.hpp"
@@ -382,8 +384,16 @@ bool begin(Analysis<Dim>& a, const BasicResumePoint<Dim>* from) {
 void share(const Together& together, AnalysisOptions& options) {
   if (!together.ranks) return;
   options.ranks = together.ranks;
-  options.linear_solver = [shared = together.mumps] {
-    return std::make_unique<la::Mumps>(la::MumpsOptions{.shared = shared});
+  options.linear_solver = [together, iterates = options.by_multigrid] {
+    const la::MumpsOptions direct{.shared = together.solvers.mumps};
+    std::unique_ptr<la::LinearSolver> solver;
+    if (iterates)
+      solver = std::make_unique<la::Iterative>(direct, [together] {
+        return std::unique_ptr<la::Engine>(together.solvers.engine(*together.ranks));
+      });
+    else
+      solver = std::make_unique<la::Condensed>(direct);
+    return solver;
   };
 }
 

@@ -4,17 +4,17 @@
 #include <string>
 #include <vector>
 
-#include "osculate/la/mumps.hpp"
+#include "osculate/la/shared_solvers.hpp"
 #include "osculate/model/failure.hpp"
 #include "osculate/model/system.hpp"
 #include "osculate/solve/increments.hpp"
 
 namespace osculate::model {
 
-/// Processes that run the same analysis, and the direct solver that they share.
+/// Processes that run the same analysis, and the solvers that they share.
 struct Together {
   const core::Ranks* ranks = nullptr;  ///< null: this process is alone
-  la::SharedMumps mumps{};
+  la::SharedSolvers solvers{};
 };
 
 struct AnalysisOptions {
@@ -22,11 +22,11 @@ struct AnalysisOptions {
   int threads = 1;
   const core::Ranks* ranks = nullptr;  ///< see `share`
   la::MakeSolver linear_solver = la::make_default_solver;
-  std::string until;  ///< last step to run (inclusive), empty = all
+  bool by_multigrid = false;  ///< what `linear_solver` is for large models
+  std::string until;          ///< last step to run (inclusive), empty = all
 };
 
-/// The analysis is run by several processes, whose observers answer alike. They factor together,
-/// whatever solver was chosen.
+/// The analysis is run by several processes, whose observers answer alike. They solve together.
 void share(const Together& together, AnalysisOptions& options);
 
 /// Where the analysis stands when an observer is called.

@@ -1,12 +1,13 @@
-// The processes that mpirun has started, and the MUMPS that they share: a library by itself, which
-// the program loads where it was started so, and otherwise knows nothing of.
+// The processes that mpirun has started, and the solvers that they share: a library by itself,
+// which the program loads where it was started so, and otherwise knows nothing of.
 #include <dmumps_c.h>
 #include <mpi.h>
 
 #include <numeric>
 #include <vector>
 
-#include "osculate/core/ranks.hpp"
+#include "osculate/la/shared_solvers.hpp"
+#include "osculate/mpi/petsc_engine.hpp"
 
 namespace osculate::mpi {
 namespace {
@@ -35,7 +36,10 @@ class World final : public core::Ranks {
     MPI_Gatherv(mine.data(), size, MPI_INT, all.data(), sizes.data(), starts.data(), MPI_INT, 0,
                 MPI_COMM_WORLD);
   }
-  void finish() const override { MPI_Finalize(); }
+  void finish() const override {
+    end_petsc();
+    MPI_Finalize();
+  }
   [[noreturn]] void end_all(int code) const override {
     MPI_Abort(MPI_COMM_WORLD, code);
     __builtin_unreachable();
@@ -54,11 +58,12 @@ void call_mumps(void* structure) { dmumps_c(static_cast<DMUMPS_STRUC_C*>(structu
 }  // namespace
 }  // namespace osculate::mpi
 
-extern "C" void osculate_begin_ranks(osculate::core::RanksLibrary& library) {
+extern "C" void osculate_begin_ranks(osculate::la::RanksLibrary& library) {
   int provided = 0;
   MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
   static const osculate::mpi::World world;
   library.ranks = &world;
-  library.mumps = osculate::mpi::call_mumps;
-  library.communicator = static_cast<int>(MPI_Comm_c2f(MPI_COMM_WORLD));
+  library.solvers.mumps = {osculate::mpi::call_mumps,
+                           static_cast<int>(MPI_Comm_c2f(MPI_COMM_WORLD))};
+  library.solvers.engine = osculate::mpi::make_engine;
 }

@@ -20,7 +20,7 @@ using FacetVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, cell::max_facet_
 /// Shapes     `de`, `df`: row j + n k (column by column), n the slave facet's nodes;
 ///            column Dim c + i is the derivative by direction i of nodes[c]
 template <int Dim>
-struct MortarCell {
+struct alignas(EIGEN_MAX_STATIC_ALIGN_BYTES) MortarCell {
   Index master = -1;    ///< facet
   double distance = 0;  ///< mean way from the slave to the master along the slave's normal
   double cover = 0;     ///< part of the slave facet that is covered

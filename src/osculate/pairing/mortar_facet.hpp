@@ -15,7 +15,7 @@ namespace osculate::pairing {
 ///            Dim c + i is the derivative by direction i of nodes[c]
 /// Tested by  tests/unit/pairing/test_mortar_facet.cpp
 template <int Dim>
-struct MortarFacet {
+struct alignas(EIGEN_MAX_STATIC_ALIGN_BYTES) MortarFacet {
   std::vector<Index> masters;  ///< nodes
   FacetVector d;
   FacetMatrix s;  ///< D over the facet's nodes

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "osculate/model/changing_unknowns.hpp"
 #include "osculate/model/stopwatch.hpp"
@@ -45,6 +46,8 @@ template <int Dim>
 bool BulkTerm<Dim>::add(const State& committed, const State& trial, double duration,
                         const CellInertia<Dim>* inertia, Assembly<Dim>& to,
                         solve::Evaluation& out) {
+  if (ranks && !ranks->agree_on({trial.u.data(), static_cast<std::size_t>(trial.u.size())}))
+    throw std::runtime_error("the processes have come to different states");
   std::size_t failed = jobs.size();
   const bool added = add_cells(committed, trial, duration, inertia, to, out, failed);
   return ranks ? all_added(failed, to, out) : added;

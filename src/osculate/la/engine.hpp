@@ -1,0 +1,52 @@
+#pragma once
+#include <Eigen/Core>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "osculate/la/linear_solver.hpp"
+#include "osculate/la/preconditioned.hpp"
+
+namespace osculate::la {
+
+/// What goes through the iterations of la::Iterative, which decides when, and what to believe.
+///
+/// Contract   the bits of a solution depend on the matrix, the places, and the matrix of the last
+///            `build` alone
+class Engine {
+ public:
+  Engine() = default;
+  virtual ~Engine() = default;
+  Engine(const Engine&) = delete;
+  Engine& operator=(const Engine&) = delete;
+
+  /// Prepares for a matrix. False: it cannot be, as where a body is free to move.
+  virtual bool build(const SparseMatrix& k, Symmetry symmetry, const Places& places) = 0;
+  /// Prepares for a matrix of the same unknowns with the coarser models of the last one built; what
+  /// is exact is its own. False: it has to be built.
+  virtual bool refresh(const SparseMatrix& k, Symmetry symmetry, const Places& places) = 0;
+  /// Prepares anew for the matrix of the last `refresh`.
+  virtual bool build_again(const Places& places) = 0;
+  /// Returns    as `solve_preconditioned`
+  virtual Nearby solve(const PreconditionedLimits& limits,
+                       Eigen::VectorXd& rhs_in_solution_out) = 0;
+  /// Sizes of the diagonal entries of the matrix.
+  [[nodiscard]] virtual Eigen::VectorXd diagonal() const = 0;
+  /// The matrix, both triangles.
+  [[nodiscard]] virtual SparseMatrix matrix() const = 0;
+  /// Gives the memory back.
+  virtual void forget() = 0;
+};
+
+using MakeEngine = std::function<std::unique_ptr<Engine>()>;
+
+/// Translations of the nodes, and rotations about the middle of all. Zero where `alone` is not: an
+/// unknown that has nothing to do with others, as where its motion is prescribed, or of no node.
+///
+/// Shapes     a row per unknown, three columns in the plane and six in space
+[[nodiscard]] Eigen::MatrixXd rigid_motions(const Places& places, const std::vector<char>& alone);
+
+/// la::Multigrid, with factors of what is exact.
+[[nodiscard]] std::unique_ptr<Engine> make_multigrid_engine();
+
+}  // namespace osculate::la
