@@ -8,6 +8,7 @@
 #include <memory>
 #include <variant>
 
+#include "comments.hpp"
 #include "description.hpp"
 #include "surfaces.hpp"
 
@@ -148,60 +149,49 @@ auto member(const Get& get) {
   };
 }
 
-constexpr const char* points_text =
-    "Slave points, then edge-edge contacts: status (Status), feature (Feature) and facet of the "
-    "master (-1: no place found), edge, xi on the facet, gap (negative: penetration), "
-    "normal_traction (not positive in contact), shear_traction (its negative acts on the slave), "
-    "slip in this increment, foot, normal, weight (1 or the area), stored (energy per weight), "
-    "friction_work and damping_work (dissipated so far), outside_domain.";
-
 void add_arrays(py::class_<AnyEvaluation>& type) {
   type.def_property_readonly("force", member([](const auto& r, const py::object& self) {
                                return shown(r.force(), dimension(r), self);
                              }),
-                             "To be ADDED to the internal forces, (n, dim).")
+                             comment_of("osculate::Result::force", "(n, dim)").c_str())
       .def_property_readonly("branch_force", member([](const auto& r, const py::object& self) {
                                return shown(r.branch_force(), dimension(r), self);
                              }),
-                             "Forces of the states that the tangent belongs to: what a correction "
-                             "is computed from. `force` decides whether it was the last one.")
+                             comment_of("osculate::Result::branch_force", "(n, dim)").c_str())
       .def_property_readonly(
           "tangent",
           member([](const auto& r, const py::object& self) { return shown(r.tangent(), self); }),
-          "Entries (row, column, value) of d branch_force / d coordinates; those "
-          "of one place are summed (`csr`). Row dim n + i is direction i of "
-          "node n.")
-      .def_property_readonly("points", member([](const auto& r, const py::object& self) {
-                               return points_of(r, self);
-                             }),
-                             points_text)
+          comment_of("osculate::Result::tangent",
+                     "Entries (row, column, value); those of one place are summed (`csr`).")
+              .c_str())
+      .def_property_readonly(
+          "points",
+          member([](const auto& r, const py::object& self) { return points_of(r, self); }),
+          comment_of("osculate::Result::points", comment_of("osculate::ContactPoint")).c_str())
       .def_property_readonly(
           "constraints",
           member([](const auto& r, const py::object& self) { return constraints(r, self); }),
-          "With unknown tractions: value, branch_value, and entries rows (d value / d coordinate), "
-          "columns (d force / d unknown), own (d value / d unknown).")
+          comment_of("osculate::Result::constraints", comment_of("osculate::Constraints")).c_str())
       .def_property_readonly("branched",
                              member([](const auto& r, const py::object&) { return r.branched(); }),
-                             "Whether some points were linearised in another state than the one "
-                             "their traction is of.");
+                             comment_of("osculate::Result::branched").c_str());
 }
 
 void add_next(py::class_<AnyEvaluation>& type) {
   type.def("next_active_set", member([](const auto& r, const py::object&) {
              return AnyActiveSet{r.next_active_set()};
            }),
-           "For the next iteration.")
+           comment_of("osculate::Result::next_active_set").c_str())
       .def("multipliers",
            member([](const auto& r, const py::object&) { return AnyMultipliers{r.multipliers()}; }),
-           "Those that it was made with, as the states that were found take them: for the next "
-           "iteration, too.")
+           comment_of("osculate::Result::multipliers").c_str())
       .def("corrected_multipliers", member([](const auto& r, const py::object&) {
              return AnyMultipliers{r.corrected_multipliers()};
            }),
-           "The tractions that a solution asks for (Uzawa).")
+           comment_of("osculate::Result::corrected_multipliers").c_str())
       .def("committed",
            member([](const auto& r, const py::object&) { return AnyHistory{r.committed()}; }),
-           "What the next increment begins with.")
+           comment_of("osculate::Result::committed").c_str())
       .def("committed_multipliers", member([](const auto& r, const py::object&) {
              return AnyMultipliers{r.committed_multipliers()};
            }),
@@ -210,8 +200,11 @@ void add_next(py::class_<AnyEvaluation>& type) {
 
 void add_evaluation(py::module_& m) {
   py::class_<AnyEvaluation> type(m, "Evaluation",
-                                 "What an evaluation found. Its arrays show its memory, without a "
-                                 "copy, and cannot be written into.");
+                                 comment_of("osculate::Result",
+                                            "Every evaluation makes a new one. Its arrays show "
+                                            "its memory, without a copy, and cannot be written "
+                                            "into.")
+                                     .c_str());
   add_arrays(type);
   add_next(type);
 }
@@ -233,40 +226,36 @@ auto value(const Get& get) {
 }
 
 void add_states(py::module_& m) {
-  py::class_<AnyHistory>(m, "History",
-                         "What all contact points remember of the last converged increment. A "
-                         "value: it never changes.")
+  py::class_<AnyHistory>(m, "History", comment_of("osculate::History").c_str())
       .def("__len__", value<AnyHistory>([](const auto& h) { return h.size(); }))
       .def("bytes", value<AnyHistory>([](const auto& h) { return bytes_of(h); }),
-           "All of it, for a restart: Evaluator.history reads it.");
-  py::class_<AnyActiveSet>(m, "ActiveSet",
-                           "In which state every contact point is linearised: an iteration leaves "
-                           "that of the next one behind.")
+           comment_of("osculate::History::bytes").c_str());
+  py::class_<AnyActiveSet>(m, "ActiveSet", comment_of("osculate::ActiveSet").c_str())
       .def("__len__", value<AnyActiveSet>([](const auto& a) { return a.size(); }))
       .def_property_readonly("predicts",
                              value<AnyActiveSet>([](const auto& a) { return a.predicts(); }),
-                             "Made by Evaluator.predicted.")
+                             comment_of("osculate::ActiveSet::predicts").c_str())
       .def("bytes", value<AnyActiveSet>([](const auto& a) { return bytes_of(a); }),
-           "All of it, for a restart: Evaluator.active_set reads it.");
+           comment_of("osculate::ActiveSet::bytes").c_str());
 }
 
 void add_multipliers(py::module_& m) {
-  py::class_<AnyMultipliers>(m, "Multipliers",
-                             "Tractions of all points that do not follow from their penetration.")
+  py::class_<AnyMultipliers>(m, "Multipliers", comment_of("osculate::Multipliers").c_str())
       .def_property_readonly(
           "values",
           [](const py::object& self) {
             return std::visit([&](const auto& numbers) { return values_of(numbers, self); },
                               self.cast<const AnyMultipliers&>().value);
           },
-          "(points, 1 + dim): N (not positive in contact) and the shear traction as a vector. The "
-          "memory itself: what is written there counts.")
+          comment_of("osculate::Multiplier",
+                     "(points, 1 + dim). The memory itself: what is written there counts.")
+              .c_str())
       .def_property_readonly("stiffening",
                              value<AnyMultipliers>([](const auto& v) { return v.stiffening; }),
-                             "Of all penalties of the contact.")
+                             comment_of("osculate::Multipliers::stiffening").c_str())
       .def_property_readonly("violation",
                              value<AnyMultipliers>([](const auto& v) { return v.violation; }),
-                             "Largest gap or elastic slip at the last correction [length].");
+                             comment_of("osculate::Multipliers::violation").c_str());
 }
 
 // ---- the evaluator ------------------------------------------------------------------------------
@@ -375,21 +364,21 @@ void add_restart(py::class_<AnyEvaluator>& type) {
           [](const AnyEvaluator& self, std::string_view data) {
             return with(self, [&](const auto& e) { return AnyHistory{e.history(bytes_in(data))}; });
           },
-          py::arg("data"), "From History.bytes: it goes on with the same bits.")
+          py::arg("data"), comment_of("osculate::Evaluator::history").c_str())
       .def(
           "active_set",
           [](const AnyEvaluator& self, std::string_view data) {
             return with(self,
                         [&](const auto& e) { return AnyActiveSet{e.active_set(bytes_in(data))}; });
           },
-          py::arg("data"), "From ActiveSet.bytes.")
+          py::arg("data"), "From ActiveSet.bytes; as `history`.")
       .def(
           "multipliers",
           [](const AnyEvaluator& self, std::string_view data) {
             return with(
                 self, [&](const auto& e) { return AnyMultipliers{e.multipliers(bytes_in(data))}; });
           },
-          py::arg("data"), "From Evaluator.bytes.")
+          py::arg("data"), "From Evaluator.bytes; as `history`.")
       .def(
           "bytes",
           [](const AnyEvaluator& self, const AnyMultipliers& multipliers) {
@@ -404,10 +393,10 @@ void add_restart(py::class_<AnyEvaluator>& type) {
 void add_unknowns(py::class_<AnyEvaluator>& type) {
   type.def("initial_multipliers",
            of_evaluator([](const auto& e) { return AnyMultipliers{e.initial_multipliers()}; }),
-           "Multipliers to start from: no traction.")
+           comment_of("osculate::Evaluator::initial_multipliers").c_str())
       .def_property_readonly("unknowns_per_point",
                              of_evaluator([](const auto& e) { return e.unknowns_per_point(); }),
-                             "Of lagrange_multiplier: 1, with friction 1 + dim.")
+                             comment_of("osculate::Evaluator::unknowns_per_point").c_str())
       .def(
           "multipliers_of",
           [](const AnyEvaluator& self, const Numbers& unknowns) {
@@ -416,7 +405,7 @@ void add_unknowns(py::class_<AnyEvaluator>& type) {
                   e.multipliers_of({unknowns.data(), static_cast<std::size_t>(unknowns.size())})};
             });
           },
-          py::arg("unknowns"), "Multipliers from unknowns in the order of the constraints.")
+          py::arg("unknowns"), comment_of("osculate::Evaluator::multipliers_of").c_str())
       .def(
           "unknowns_of",
           [](const AnyEvaluator& self, const AnyMultipliers& multipliers) {
@@ -440,7 +429,7 @@ void add_evaluator(py::module_& m) {
               return AnyHistory{e.initial_history(coordinates_of<Dim>(x))};
             });
           },
-          py::arg("coordinates"), "The state before the first increment, at these coordinates.")
+          py::arg("coordinates"), comment_of("osculate::Evaluator::initial_history").c_str())
       .def("predicted",
            [](const AnyEvaluator& self, const AnyHistory& committed, const Numbers& x,
               const std::string& guess) {
@@ -453,8 +442,9 @@ void add_evaluator(py::module_& m) {
       .def("derivative_check", derivative_check)
       .def("pattern", pattern)
       .def("slave_points", slave_points,
-           "[(nodes, shape, facet), ...] of the slave points in the order of Evaluation.points: "
-           "each is sum shape[k] x[nodes[k]]; facet -1: a node.");
+           comment_of("osculate::Evaluator::slave_points",
+                      "[(nodes, shape, facet), ...]: " + comment_of("osculate::SlavePoint"))
+               .c_str());
   add_unknowns(type);
   add_restart(type);
 }

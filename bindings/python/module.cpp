@@ -3,6 +3,7 @@
 
 #include <cerrno>
 
+#include "comments.hpp"
 #include "convert.hpp"
 #include "osculate/cell/cell_type.hpp"
 #include "osculate/contact.hpp"
@@ -67,6 +68,7 @@ PYBIND11_MODULE(_core, m) {
 #endif
   la::end_idle_blas_threads();
   m.attr("version") = std::string(core::version);
+  m.attr("comments") = python::all_comments();
   pybind11::register_exception_translator(python::translate);
   m.def("cells", python::cells, "name: (dimension, nodes, Gmsh's type, VTK's type, order in VTK)");
   python::add_run(m);

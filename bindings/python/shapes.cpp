@@ -3,7 +3,7 @@
 
 #include <pybind11/stl.h>
 
-#include "convert.hpp"
+#include "comments.hpp"
 
 namespace osculate::python {
 namespace {
@@ -13,21 +13,21 @@ using V2 = Vector<2>;
 using V3 = Vector<3>;
 
 void add_curves(py::module_& m) {
-  py::class_<Line>(m, "Line", "Straight line without ends; the body is where `normal` points from.")
+  py::class_<Line>(m, "Line", comment_of("osculate::Line").c_str())
       .def(py::init([](V2 point, V2 normal) {
              return Line{point, normal};
            }),
            py::arg("point") = V2{0, 0}, py::arg("normal") = V2{0, 1})
       .def_readonly("point", &Line::point)
       .def_readonly("normal", &Line::normal);
-  py::class_<Segment>(m, "Segment", "Straight line; the body is on the right of the way.")
+  py::class_<Segment>(m, "Segment", comment_of("osculate::Segment").c_str())
       .def(py::init([](V2 a, V2 b) {
              return Segment{a, b};
            }),
            py::arg("start"), py::arg("end"))
       .def_readonly("start", &Segment::from)
       .def_readonly("end", &Segment::to);
-  py::class_<Circle>(m, "Circle", "Full circle; `inside`: a hole, the body is around it.")
+  py::class_<Circle>(m, "Circle", comment_of("osculate::Circle").c_str())
       .def(py::init([](V2 c, double r, bool inside) {
              return Circle{c, r, inside};
            }),
@@ -35,7 +35,7 @@ void add_curves(py::module_& m) {
       .def_readonly("center", &Circle::center)
       .def_readonly("radius", &Circle::radius)
       .def_readonly("inside", &Circle::inside);
-  py::class_<Arc>(m, "Arc", "Part of a circle between two angles [rad] from the x axis.")
+  py::class_<Arc>(m, "Arc", comment_of("osculate::Arc").c_str())
       .def(py::init([](V2 c, double r, double a, double b, bool inside) {
              return Arc{c, r, a, b, inside};
            }),
@@ -46,8 +46,7 @@ void add_curves(py::module_& m) {
       .def_readonly("start", &Arc::from)
       .def_readonly("end", &Arc::to)
       .def_readonly("inside", &Arc::inside);
-  py::class_<NurbsCurve>(m, "NurbsCurve",
-                         "Rational B-spline; control points are not multiplied by their weights.")
+  py::class_<NurbsCurve>(m, "NurbsCurve", comment_of("osculate::NurbsCurve").c_str())
       .def(py::init([](int degree, std::vector<double> knots, std::vector<V2> control,
                        std::vector<double> weights) {
              if (weights.empty()) weights.assign(control.size(), 1.0);
@@ -62,7 +61,7 @@ void add_curves(py::module_& m) {
 }
 
 void add_round_surfaces(py::module_& m) {
-  py::class_<Cylinder>(m, "Cylinder", "Circular cylinder from `point` along the axis.")
+  py::class_<Cylinder>(m, "Cylinder", comment_of("osculate::Cylinder").c_str())
       .def(py::init([](V3 p, V3 axis, double r, bool inside, double length) {
              return Cylinder{p, axis, r, inside, length};
            }),
@@ -73,7 +72,7 @@ void add_round_surfaces(py::module_& m) {
       .def_readonly("radius", &Cylinder::radius)
       .def_readonly("inside", &Cylinder::inside)
       .def_readonly("length", &Cylinder::length);
-  py::class_<Cone>(m, "Cone", "Circular cone along `axis`, between two distances from its apex.")
+  py::class_<Cone>(m, "Cone", comment_of("osculate::Cone").c_str())
       .def(py::init([](V3 apex, V3 axis, double angle, bool inside, double a, double b) {
              return Cone{apex, axis, angle, inside, a, b};
            }),
@@ -86,7 +85,7 @@ void add_round_surfaces(py::module_& m) {
       .def_readonly("inside", &Cone::inside)
       .def_readonly("start", &Cone::from)
       .def_readonly("end", &Cone::to);
-  py::class_<Torus>(m, "Torus", "Ring torus; `radius` from the axis to the middle of the tube.")
+  py::class_<Torus>(m, "Torus", comment_of("osculate::Torus").c_str())
       .def(py::init([](V3 c, V3 axis, double r, double tube, bool inside) {
              return Torus{c, axis, r, tube, inside};
            }),
@@ -100,14 +99,14 @@ void add_round_surfaces(py::module_& m) {
 }
 
 void add_surfaces(py::module_& m) {
-  py::class_<Plane>(m, "Plane", "Plane without borders; the body is where `normal` points from.")
+  py::class_<Plane>(m, "Plane", comment_of("osculate::Plane").c_str())
       .def(py::init([](V3 point, V3 normal) {
              return Plane{point, normal};
            }),
            py::arg("point") = V3{0, 0, 0}, py::arg("normal") = V3{0, 0, 1})
       .def_readonly("point", &Plane::point)
       .def_readonly("normal", &Plane::normal);
-  py::class_<Sphere>(m, "Sphere", "Sphere; `inside`: a hole, the body is around it.")
+  py::class_<Sphere>(m, "Sphere", comment_of("osculate::Sphere").c_str())
       .def(py::init([](V3 c, double r, bool inside) {
              return Sphere{c, r, inside};
            }),
@@ -115,9 +114,7 @@ void add_surfaces(py::module_& m) {
       .def_readonly("center", &Sphere::center)
       .def_readonly("radius", &Sphere::radius)
       .def_readonly("inside", &Sphere::inside);
-  py::class_<NurbsSurface>(
-      m, "NurbsSurface",
-      "Rational B-spline surface; control point (i, j) is number i count[1] + j.")
+  py::class_<NurbsSurface>(m, "NurbsSurface", comment_of("osculate::NurbsSurface").c_str())
       .def(py::init([](std::array<int, 2> degree, std::array<std::vector<double>, 2> knots,
                        std::array<int, 2> count, std::vector<V3> control,
                        std::vector<double> weights) {

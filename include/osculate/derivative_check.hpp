@@ -19,8 +19,8 @@ struct DerivativeCheck {
 /// direction d against central differences with `step` and half of it.
 ///
 /// Requires   a consistent tangent, and no shape on a frame (which moves rigidly alone); with
-/// `step` a small part of a facet, and points well inside
-///            their states, the order is 2
+/// `step`
+///            a small part of a facet, and points well inside their states, the order is 2
 /// Tested by  tests/unit/embed/test_public_door.cpp
 template <int Dim>
 [[nodiscard]] DerivativeCheck check_derivative(const Evaluator<Dim>& evaluator,

@@ -54,6 +54,7 @@ struct Plane {
   Vector<3> normal{0, 0, 1};  ///< any length but zero
 };
 
+/// Sphere.
 struct Sphere {
   Vector<3> center{0, 0, 0};
   double radius = 1;

@@ -6,6 +6,7 @@ import tempfile
 from dataclasses import dataclass
 
 from . import _core, _plot
+from ._comments import comment_of
 from ._data import DataSet, Parts
 from ._element import _call
 from ._mesh import write_gmsh
@@ -24,6 +25,7 @@ def _asked(model, mesh, base):
         yield _model(model, mesh, base, mesh_file)
 
 
+@comment_of("osculate::api::CheckReport")
 def check(model, *, mesh=None, base=None, parameters=None):
     """What `osculate check` says of a model, as a dictionary; its key `text` has it for a reader.
 
@@ -48,6 +50,7 @@ class TangentCheck:
     text: str
 
 
+@comment_of("osculate::api::check_tangent")
 def tangent(model, folder=None, *, mesh=None, base=None, parameters=None, state=0, threads=1):
     """The tangent of a model against differences of its forces, by the order of their error: `osculate tangent`.
 
@@ -78,6 +81,7 @@ class Comparison:
     text: str
 
 
+@comment_of("osculate::api::compare", "osculate::api::QuantityDifference")
 def compare(a, b):
     """Two results side by side, increment by increment: `osculate compare`.
 

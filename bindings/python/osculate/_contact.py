@@ -6,25 +6,22 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from . import _core, _laws
+from ._comments import comment_of
 from ._core import ActiveSet, Evaluation, History, Multipliers  # noqa: F401
 
 
+@comment_of("osculate::Status")
 class Status(enum.IntEnum):
-    """What a contact point does."""
-
     open, stick, slip = range(3)
 
 
+@comment_of("osculate::Feature")
 class Feature(enum.IntEnum):
-    """What a closest point lies on; in the plane a curve's interior is `face`, its vertices are `corner`."""
-
     none, face, edge, corner = range(4)
 
 
+@comment_of("osculate::ClosestStatus")
 class ClosestStatus(enum.IntEnum):
-    """projected: one closest point; ambiguous: another place is as near; outside_domain: beyond the centre of
-    curvature; invalid: no numbers."""
-
     projected, ambiguous, outside_domain, invalid = range(4)
 
 
@@ -48,12 +45,9 @@ class Surface:
 
 
 @dataclass(frozen=True)
+@comment_of("osculate::DerivativeCheck")
 class DerivativeCheck:
-    """How the error of a tangent falls with the step: order = log2 of the ratio of both errors, 2 for a derivative.
-
-    error is relative, at half the step; exact: both errors are rounding; same_states: false where a step has changed
-    the state of a point, so that no order is to be expected; passed: same_states and (exact or 1.75 < order < 2.25).
-    """
+    """passed: same_states and (exact or 1.75 < order < 2.25)."""
 
     error: float
     order: float
@@ -63,13 +57,9 @@ class DerivativeCheck:
 
 
 @dataclass(frozen=True)
+@comment_of("osculate::Pattern")
 class Pattern:
-    """Where entries of a tangent may be, before it is evaluated (Evaluator.pattern).
-
-    couplings                (n, 2): slave point and facet of the master that it may press on, ascending
-    row_start, columns       in compressed rows the nodes that the forces of a node may depend on
-    point_start, point_nodes likewise of each slave point the nodes that its constraints may be entries of
-    """
+    """couplings: (n, 2), slave point and facet of the master."""
 
     dim: int
     couplings: np.ndarray
@@ -89,13 +79,9 @@ class Pattern:
         return block[np.repeat(starts, lengths) + inside], indptr
 
 
+@comment_of("osculate::Evaluator")
 class Evaluator(_core.Evaluator):
-    """Contact of a slave with a master, for a code that has its own mesh and solver. It changes nothing: all that an
-    analysis remembers are values of the host.
-
-    An increment:
-        evaluate(x, history, predicted(history, x)) -> correction of x ->
-        evaluate(x, history, last.next_active_set()) -> correction ... -> history = last.committed()
+    """Contact of a slave with a master, for a code that has its own mesh and solver.
 
     reference      coordinates of all nodes, (n, 2) or (n, 3)
     master, slave  Surface; without a slave the master touches itself
@@ -120,6 +106,7 @@ class Evaluator(_core.Evaluator):
             arguments.pop(name, None)
         super().__init__(reference, arguments)
 
+    @comment_of("osculate::Evaluator::evaluate")
     def evaluate(self, coordinates, committed, active_set=None, multipliers=None, *, tangent=True, duration=0.0,
                  relief=0.0, far=False):
         """Forces, tangent and next states at these coordinates, (n, dim) or one number behind the other.
@@ -134,22 +121,21 @@ class Evaluator(_core.Evaluator):
         _laws.reraise()
         return answer
 
+    @comment_of("osculate::Evaluator::predicted", "osculate::FrictionGuess")
     def predicted(self, committed, coordinates, guess="as_before"):
-        """States for the first iteration of an increment; guess: as_before, sticking or sliding."""
+        """States (ActiveSet) for the first iteration of an increment; guess: as_before, sticking or sliding."""
         answer = super().predicted(committed, coordinates, guess)
         _laws.reraise()
         return answer
 
+    @comment_of("osculate::Evaluator::pattern", "osculate::Reach")
     def pattern(self, coordinates, committed, motion, distance=math.inf):
-        """Pattern that has all entries of tangents at coordinates of which no node is farther than `motion` from these,
-        from this history or (but for contact with itself or by a search distance) one that such evaluations have committed. distance: a promise
-        that points in contact (with friction open ones that have a place, too) are not farther than this from it. Mortar (unless tied) and
-        edge-edge contacts are refused."""
+        """A Pattern; motion, distance: those of `reach`. With friction, open points that have a place are as those in contact."""
         return Pattern(**super().pattern(coordinates, committed, motion, distance))
 
+    @comment_of("osculate::check_derivative")
     def derivative_check(self, coordinates, committed, step, active_set=None, multipliers=None, *, duration=0.0):
-        """Whether the tangent is the derivative of the forces: K d along a fixed random direction against central
-        differences with `step` and half of it."""
+        """A DerivativeCheck."""
         answer = super().derivative_check(coordinates, committed, step, active_set, multipliers, duration)
         _laws.reraise()
         return DerivativeCheck(**answer)
@@ -167,14 +153,10 @@ def csr(entries, size):
 
 
 @dataclass(frozen=True)
+@comment_of("osculate::ClosestPointArrays")
 class Closest:
-    """One row a point, in their order.
-
-    status     ClosestStatus
-    feature    Feature; facet: in the order given, -1 where invalid; xi: on the facet (n, 2), NaN where it has none
-    point      the foot points (n, dim); distance: negative inside
-    margin     how much farther the next place is, unique: whether there is one place only (both of "certified")
-    """
+    """status: ClosestStatus; feature: Feature; xi (n, 2), point (n, dim); unique: whether there is one place only.
+    margin and unique are looked for by "certified"."""
 
     status: np.ndarray
     feature: np.ndarray
@@ -186,8 +168,9 @@ class Closest:
     unique: np.ndarray
 
 
+@comment_of("osculate::ClosestPoints")
 class ClosestPoints:
-    """A surface (in the plane a curve) that is prepared once and asked many times, from several threads too.
+    """The closest points of a surface.
 
     surface       a shape (Circle, Torus, ...), or facets [(type, nodes), ...] as of Surface
     coordinates   with facets: of all nodes, (n, dim)
@@ -204,12 +187,9 @@ class ClosestPoints:
         """2 or 3."""
         return self._prepared.dimension
 
+    @comment_of("osculate::ClosestPoints::find", "osculate::ClosestMode", "osculate::ClosestPointOptions")
     def find(self, points, mode="certified", threads=1):
-        """The nearest places to `points` (n, dim), any values.
-
-        mode: "nearest" (proved: nothing is nearer), "certified" (the margin is found, too) or "fast" (Newton's method
-        from a good guess). Results have the same bits for any number of threads.
-        """
+        """The nearest places to `points` (n, dim): Closest."""
         return Closest(**self._prepared.find(points, mode, threads))
 
 
@@ -218,8 +198,8 @@ def closest_points(surface, points, *, coordinates=None, mode="certified", threa
     return ClosestPoints(surface, coordinates).find(points, mode, threads)
 
 
+@comment_of("osculate::automatic_penalties", "osculate::Layer")
 def automatic_penalties(slave, master=()):
-    """Penalties per area (normal, shear) as stiff as the bodies need: eps_N = 10 / (h_s/E_s + h_m/E_m), eps_T the same
-    with G = E / (2 (1 + nu)). Rows (E, nu, height of the cells, area) of the pieces of both sides; none: rigid."""
+    """Penalties per area (normal, shear). Rows (E, nu, height of the cells, area) of the pieces of both sides; none: rigid."""
     return _core.automatic_penalties([tuple(map(float, row)) for row in slave],
                                      [tuple(map(float, row)) for row in master])

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from . import _core
+from ._comments import comment_of
 
 
 @dataclass(frozen=True)
@@ -35,6 +36,7 @@ def _plain(value):
     raise TypeError(f"a surface has numbers, texts, lists and dictionaries, not {value!r}")
 
 
+@comment_of("osculate::api::survey_domain")
 def domain(surface, *, kink=0.01, samples=3000, tolerance=0.01, length=None, output=None, page=None):
     """The projection domain of a surface or curve: `osculate domain`.
 

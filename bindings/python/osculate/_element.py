@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from . import _core
+from ._comments import comment_of
 from ._contact import DerivativeCheck
 from ._errors import InputError
 from ._laws import forget, reraise
@@ -14,6 +15,7 @@ from ._mesh import _CELLS, _block, write_gmsh
 
 
 @dataclass(frozen=True)
+@comment_of("osculate::solid::ElementResult", "osculate::solid::PointStress")
 class ElementParts:
     """What a cell is at one displacement: n nodes in d dimensions, q points, c components (plane 4: xx, yy, zz, xy; in
     space 6: and yz, zx).
@@ -36,6 +38,7 @@ class ElementParts:
 
 
 @dataclass(frozen=True)
+@comment_of("osculate::material::response")
 class MaterialAnswer:
     """What a material says to a strain.
 

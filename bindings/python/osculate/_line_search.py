@@ -2,20 +2,17 @@
 import numpy as np
 
 from . import _core
+from ._comments import comment_of
 
 
+@comment_of("osculate::line_search")
 def line_search(residual_at, before, correction):
-    """How much of a correction to take: the rule of `osculate run`, that of include/osculate/line_search.hpp.
+    """The part of a correction that a solver of one's own takes.
 
     residual_at(step)   the residual at that part of the correction; or the residual and whether points have jumped over
                         a border of their states (Evaluation.branched); None where there is none (a cell has turned over)
     before              the residual that the correction was computed from
     correction          in the order of the residual
-
-    The whole correction where the residual is halved, or its work along the correction has fallen to a twentieth, or has
-    kept its sign while the residual has not grown, and where points are branched; else the zero of the work (Illinois'
-    rule), or halves until the residual has fallen. To be called from the second iteration of an increment on, and not
-    where `before` is of an evaluation that was branched.
     """
     direction = np.asarray(correction, float).ravel()
 

@@ -4,10 +4,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from . import _core
+from ._comments import comment_of
 from ._contact import Evaluator, Feature, Status, Surface, csr
 
 
 @dataclass(frozen=True)
+@comment_of("osculate::contact::Kinematics", "osculate::contact::consistent_terms", "osculate::contact::covariant_terms")
 class PointParts:
     """What a contact point is at one configuration, n nodes in d dimensions, m directions that its place on the
     master moves in (a face of space has 2, an edge 1, a corner 0). `d_...` are derivatives by the coordinates of all

@@ -13,6 +13,7 @@ import weakref
 import numpy as np
 
 from . import _core, _laws, _plot
+from ._comments import comment_of
 from ._data import DataSet, Parts, read_collection, read_vtu
 from ._errors import AnalysisFailed, InputError, Interrupted
 from ._mesh import write_gmsh
@@ -341,6 +342,7 @@ def _model(model, mesh, base, mesh_file):
     return os.path.join(os.fspath(base) if base is not None else "", "model"), content
 
 
+@comment_of("osculate::api::run")
 def run(model, folder=None, *, mesh=None, base=None, parameters=None, until=None, threads=1, restart=False,
         max_iterations=0, max_minutes=0.0, on_increment=None, say=None):
     """Runs an analysis and returns its Result.

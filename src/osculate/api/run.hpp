@@ -65,8 +65,7 @@ struct RunOutcome {
 /// happens; where a file cannot be written (disk full) the analysis stops.
 ///
 /// Errors     core::InputError for bad input or a checkpoint that cannot be used, io::WriteError
-/// for
-///            a folder that cannot be written to: before anything is written or replaced
+///            for a folder that cannot be written to: before anything is written or replaced
 [[nodiscard]] RunOutcome run(const RunOptions& options);
 
 /// Text and JSON of `osculate check`: bodies, pairs, unknowns, initial gaps and overlaps, warnings.
