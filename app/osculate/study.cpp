@@ -11,6 +11,7 @@
 #include "../processes.hpp"
 #include "commands.hpp"
 #include "osculate/core/error.hpp"
+#include "osculate/core/version.hpp"
 #include "osculate/deck/parse.hpp"
 #include "osculate/io/atomic_file.hpp"
 #include "osculate/result/result_folder.hpp"
@@ -34,17 +35,8 @@ struct StudyFlags {
 
 struct StudyRun {
   std::string name, folder;
-  bool done = false;  ///< by an earlier study, with the same model and parameters
+  bool done = false;  ///< by an earlier study, of the same model, meshes, parameters and program
 };
-
-/// A file that has been written since the results is another model.
-bool newer(const std::vector<deck::MeshFile>& meshes, const std::string& results) {
-  std::error_code error;
-  const fs::file_time_type then = fs::last_write_time(results, error);
-  return std::ranges::any_of(meshes, [&](const deck::MeshFile& mesh) {
-    return fs::last_write_time(mesh.path, error) > then;
-  });
-}
 
 bool is_done(const std::string& folder, const deck::Description& description,
              const std::string& content) {
@@ -56,8 +48,10 @@ bool is_done(const std::string& folder, const deck::Description& description,
     parameters[parameter.name] = parameter.value;
   return summary.is_object() && summary.value("status", "") == "done" &&
          summary.value("model_content", "") == content &&
+         summary.value("osculate", "") == core::version &&
          summary.value("parameters", nlohmann::json()) == parameters &&
-         !newer(description.mesh.files, file);
+         summary.value("mesh_contents", nlohmann::json::object()) ==
+             result::mesh_contents(description.mesh);
 }
 
 /// Reads the model with the values of each run, so that bad ones are told of before the first.

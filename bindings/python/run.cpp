@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "convert.hpp"
@@ -13,6 +14,7 @@
 #include "osculate/api/compare.hpp"
 #include "osculate/api/tangent_check.hpp"
 #include "osculate/cell/cell_type.hpp"
+#include "osculate/deck/parse.hpp"
 #include "osculate/result/result_folder.hpp"
 
 namespace osculate::python {
@@ -175,6 +177,16 @@ py::tuple check(const std::string& model, const py::object& document,
   return py::make_tuple(report.text, report.json);
 }
 
+/// JSON of the mesh files that a model names: their contents as they are now.
+std::string mesh_contents(const std::string& model, const py::object& document,
+                          const std::vector<std::pair<std::string, std::string>>& settings) {
+  const std::optional<deck::SourceNode> source = document_of(document, model);
+  const std::vector<deck::Setting> values = settings_of(settings);
+  const deck::Description description =
+      source ? deck::parse_model(*source, model, values) : deck::read_model(model, values);
+  return result::json_text(result::mesh_contents(description.mesh));
+}
+
 /// Text and JSON of `osculate tangent`, and whether every part of the tangent is right.
 py::tuple tangent(const std::string& model, const py::object& document,
                   const std::vector<std::pair<std::string, std::string>>& settings,
@@ -231,6 +243,7 @@ py::tuple data_set(result::DataSet&& set) {
 void add_run(py::module_& m) {
   m.def("run", run);
   m.def("check", check);
+  m.def("mesh_contents", mesh_contents);
   m.def("tangent", tangent);
   m.def("compare", compare);
 }

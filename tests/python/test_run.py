@@ -108,6 +108,21 @@ class Runs(unittest.TestCase):
         self.assertIn("flips", last.parts["bodies"].point_data)
         self.assertIsNone(osculate.run(block()).last_iterate)
 
+    def test_the_last_iterate_is_of_the_step_that_failed(self):
+        def lifted(increments, force, **more):
+            with self.assertRaises(osculate.AnalysisFailed) as raised:
+                osculate.run(block(steps=[{"name": "rest", "increments": 1, "body_force": [{"on": "block", "fy": -1}]},
+                                          {"name": "lift", "increments": increments, "body_force": [{"on": "block", "fy": force}], **more}]))
+            result = raised.exception.result
+            return result.increments[-1], result.last_iterate
+
+        converged, last = lifted(1, -3, contact=[{"pair": "c", "active": False}])
+        self.assertEqual((converged.step, converged.increment), ("rest", 1))  # nothing of the next one
+        self.assertEqual((last.step, last.increment, last.time), ("lift", 1, converged.time))
+        converged, last = lifted(2, 1)
+        self.assertEqual((converged.step, converged.increment), ("lift", 1))
+        self.assertEqual((last.step, last.increment), ("lift", 2))
+
     def test_two_runs_in_one_process_give_the_same_bytes(self):
         for name in ("first", "second"):
             osculate.run(block(), self.path(name))

@@ -1,5 +1,6 @@
 """Studies: a model over values of its parameters."""
 import contextlib
+import json
 import os
 import signal
 import subprocess
@@ -7,6 +8,7 @@ import sys
 import tempfile
 import threading
 import unittest
+from unittest import mock
 
 import numpy as np
 import osculate
@@ -130,6 +132,40 @@ class Studies(unittest.TestCase):
                 file.write(summary.replace('"status": "done"', '"status": "stopped"'))
             study([0.1, 0.3], resume=True, model=block(title="another one"))
             self.assertEqual(len(ran), increments // 2)
+
+    def test_another_mesh_or_version_is_another_run(self):
+        with tempfile.TemporaryDirectory() as folder:
+            ran = []
+            file, mesh = os.path.join(folder, "model.yaml"), os.path.join(folder, "m.msh")
+
+            def written(width):
+                corners = [[0, 0], [width, 0], [width, 2], [0, 2]]
+                osculate.write_gmsh({"points": corners, "cells": [("quad4", [[0, 1, 2, 3]], "block"), ("line2", [[0, 1]], "under")]}, mesh)
+
+            model = block(mesh="m.msh", contact=[{"name": "c", "master": "floor", "slave": "under", "normal": {"penalty": 1e6},
+                                                  "friction": {"coulomb": {"mu": 0.3, "penalty": 1e6}}}])
+            del model["parameters"]["mu"]
+            with open(file, "w") as out:
+                out.write(json.dumps(model).replace('"=side"', "=side"))
+
+            def runs(study, model, **more):
+                """How many of both rows were run."""
+                ran.clear()
+                table = osculate.study(model, {"side": [0.1, 0.2]}, {"force": "c.normal_force"}, processes=1, resume=True,
+                                       folder=os.path.join(folder, study), on_increment=lambda state: ran.append(state), **more)
+                self.assertEqual(table.column("status").tolist(), ["done", "done"])
+                return sum(state.step == "weight" and state.increment == 1 for state in ran)
+
+            function = lambda side: {**model, "parameters": {"side": side}}  # noqa: E731
+            for kind, *asked, more in (("file", file, {}), ("model", model, {"base": folder}), ("function", function, {"base": folder})):
+                with self.subTest(kind):
+                    written(4)
+                    self.assertEqual([runs(kind, *asked, **more), runs(kind, *asked, **more)], [2, 0])
+                    written(3)
+                    self.assertEqual([runs(kind, *asked, **more), runs(kind, *asked, **more)], [2, 0])
+                    with mock.patch.object(osculate._core, "version", osculate.__version__ + ".1"):
+                        self.assertEqual([runs(kind, *asked, **more), runs(kind, *asked, **more)], [2, 0])
+                    self.assertEqual(runs(kind, *asked, **more), 2)
 
     def test_what_stopped_is_run_again(self):
         def model(up):

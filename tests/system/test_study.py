@@ -134,7 +134,20 @@ class Study(unittest.TestCase):
         for old, row in zip(before, self.table()):
             self.assertAlmostEqual(float(row["c.normal_force"]) / old, 2, delta=0.02)
 
-    def test_a_newer_mesh_is_another_model(self):
+    def test_another_program_runs_again(self):
+        self.study("--set", "mu=0.1,0.2")
+        path = self.path("m.study", "mu=0.2", "summary.json")
+        with open(path) as file:
+            text = file.read()
+        summary = json.loads(text)
+        with open(path, "w") as file:
+            json.dump({**summary, "osculate": summary["osculate"] + ".1"}, file)
+        self.assertEqual(self.study("--list", "--set", "mu=0.1,0.2").stdout, "mu=0.1  done\nmu=0.2\n")
+        with open(path, "w") as file:
+            file.write(text)
+        self.assertEqual(self.study("--list", "--set", "mu=0.1,0.2").stdout, "mu=0.1  done\nmu=0.2  done\n")
+
+    def test_another_content_of_a_mesh_is_another_model(self):
         with open(os.path.join(SOURCE, "tests", "unit", "io", "data", "blocks_41.msh")) as file:
             mesh = file.read()
         self.write("b.msh", mesh)
@@ -144,8 +157,11 @@ class Study(unittest.TestCase):
         self.write("b.yaml", re.sub(r"nu: 0\.3", "nu: =nu", text) + "\nparameters: {nu: 0.3}\n")
         self.study("--set", "nu=0.2,0.3", model="b.yaml")
         self.assertEqual(self.study("--list", "--set", "nu=0.2", model="b.yaml").stdout, "nu=0.2  done\n")
-        later = time.time() + 5
-        os.utime(self.path("b.msh"), (later, later))
+        later, earlier = time.time() + 5, time.time() - 1000
+        os.utime(self.path("b.msh"), (later, later))  # as a copy of the same is
+        self.assertEqual(self.study("--list", "--set", "nu=0.2", model="b.yaml").stdout, "nu=0.2  done\n")
+        self.write("b.msh", mesh + "\n")
+        os.utime(self.path("b.msh"), (earlier, earlier))
         self.assertEqual(self.study("--list", "--set", "nu=0.2", model="b.yaml").stdout, "nu=0.2\n")
 
     def test_interrupted_and_taken_up_again(self):

@@ -209,11 +209,15 @@ class Result:
     @property
     def last_iterate(self):
         """Of an analysis that failed: the iterate at which it gave up, to be drawn and asked for fields like an
-        increment (U, `flips`, `free_motion_1`, ...; docs/results.md). None where there is none."""
+        increment (U, `flips`, `free_motion_1`, ...; docs/results.md), of the step and increment that failed, at the time
+        of the last converged one. None where there is none."""
         if not os.path.exists(os.path.join(self.folder, "last_iterate.vtu")):
             return None
-        last = self.increments[-1]
-        return Increment(self, last.step, last.increment + 1, last.time, {}, {"bodies": "last_iterate.vtu"})
+        last, steps = self.increments[-1], self.summary.get("steps", [])
+        step, number = last.step, last.increment + 1
+        if len(steps) > self.history["step"][-1]:  # it has failed in the first increment of a step
+            step, number = steps[-1]["name"], 1
+        return Increment(self, step, number, last.time, {}, {"bodies": "last_iterate.vtu"})
 
     def plot_history(self, *columns, x="time", file=None, ax=None):
         """Draws columns of the history over another one with matplotlib; returns the axes.

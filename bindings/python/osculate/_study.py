@@ -11,8 +11,9 @@ from concurrent.futures import ProcessPoolExecutor
 
 import numpy as np
 
+from . import _core
 from ._errors import AnalysisFailed, InputError
-from ._run import Result, run
+from ._run import Result, _model, _settings, run
 
 _task = None  # what a process of a pool has to do; set before it is forked, with the lock
 _lock = threading.Lock()
@@ -87,10 +88,19 @@ def _fed(digest, value):
         digest.update(pickle.dumps(value))
 
 
-def _mark(model, values, options):
-    """Of the model (of a file: its content), the values and the options; None where they cannot be told apart."""
-    digest = hashlib.sha256()
+def _meshes(model, parameters, options):
+    """Contents of the mesh files that a model names, as text; a mesh of arrays is one of the options."""
+    if options.get("mesh") is not None:
+        return ""
+    return _core.mesh_contents(*_model(model, None, options.get("base"), None), _settings(parameters))
+
+
+def _mark(model, values, options, parameters=None):
+    """Of the program's version, the model (of a file: its content), the mesh files it names, the values and the options;
+    None where they cannot be told apart. parameters: of the model, where it is no function's."""
+    digest = hashlib.sha256(_core.version.encode() + b"\0meshes")
     try:
+        digest.update(_meshes(model, parameters, options).encode())
         if not hasattr(model, "items"):
             with open(model, "rb") as file:
                 digest.update(file.read() + b"\0values")
@@ -98,7 +108,7 @@ def _mark(model, values, options):
             _fed(digest, model)
         _fed(digest, values)
         _fed(digest, {name: options[name] for name in sorted(options) if name not in _WATCHING})
-    except (OSError, pickle.PicklingError, AttributeError, TypeError):
+    except (OSError, InputError, pickle.PicklingError, AttributeError, TypeError):  # bad input: the run says it
         return None
     return digest.hexdigest()
 
@@ -143,7 +153,7 @@ def _run_of(model, values, options, folder, resume):
         parameters = {"parameters": values}
     if folder is None:
         return run(model, **parameters, **options)
-    book = _Book(folder, _mark(model, values, options))
+    book = _Book(folder, _mark(model, values, options, **parameters))
     known = book.result() if resume else None
     if known is not None:
         return known
@@ -178,9 +188,9 @@ def study(model, parameters, outputs, processes=2, folder=None, *, resume=False,
     processes    that work beside each other (forked, so that functions may be anything); with more than one each of
                  them has one thread
     folder       rows keep their results in folder/0000, ...; model files need one
-    resume       rows whose folder has a run that is done, of the same model, values and options, are not run again: their
-                 outputs are made of its Result. All others are run anew. Of a model file its content counts, not that of
-                 meshes it names; own functions as laws are others in each process
+    resume       rows whose folder has a run that is done, by the same version of Osculate, of the same model, meshes,
+                 values and options, are not run again: their outputs are made of its Result. All others are run anew. Of a
+                 model file and of mesh files their content counts; own functions as laws are others in each process
     options      of `run`
 
     An analysis that fails has NaN as outputs and the status "stopped"; an output that raises is NaN, a row without a

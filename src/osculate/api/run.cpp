@@ -261,7 +261,7 @@ void tell_of_building(const RunOptions& options, const mesh::Mesh& mesh) {
 
 RunOutcome run(const RunOptions& options) {
   const auto start = std::chrono::steady_clock::now();
-  const nlohmann::json owner = result::owner_json(options.model);
+  nlohmann::json owner = result::owner_json(options.model);
   tell_of_reading(options);
   deck::Description description;
   std::optional<deck::AnyBuilt> any;
@@ -269,6 +269,8 @@ RunOutcome run(const RunOptions& options) {
     description = options.document
                       ? deck::parse_model(*options.document, options.model, options.settings)
                       : deck::read_model(options.model, options.settings);
+    if (!description.mesh.files.empty())
+      owner["mesh_contents"] = result::mesh_contents(description.mesh);
     mesh::Mesh nodes_and_cells = deck::load_mesh(description);
     tell_of_building(options, nodes_and_cells);
     any = deck::build_any(description, std::move(nodes_and_cells));

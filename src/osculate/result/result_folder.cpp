@@ -14,13 +14,13 @@
 #include <ctime>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <system_error>
 #include <vector>
 
 #include "osculate/core/error.hpp"
+#include "osculate/deck/mesh_description.hpp"
 #include "osculate/io/atomic_file.hpp"
 #include "osculate/io/utf8.hpp"
 
@@ -53,8 +53,13 @@ std::string content_of(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) return {};
   std::uint64_t hash = 14695981039346656037ULL;
-  for (std::istreambuf_iterator<char> at(file), end; at != end; ++at)
-    hash = (hash ^ static_cast<unsigned char>(*at)) * 1099511628211ULL;
+  for (std::array<char, 65536> part{}; file;) {
+    file.read(part.data(), part.size());  // a folder: bad, while its iterators would throw
+    for (std::streamsize i = 0; i < file.gcount(); ++i)
+      hash =
+          (hash ^ static_cast<unsigned char>(part[static_cast<std::size_t>(i)])) * 1099511628211ULL;
+  }
+  if (file.bad()) return {};
   return fmt::format("{:016x}", hash);
 }
 
@@ -176,6 +181,13 @@ nlohmann::json owner_json(const std::string& model) {
   return {{"model", name_of(model)},
           {"model_path", path_of(model)},
           {"model_content", content_of(model)}};
+}
+
+nlohmann::json mesh_contents(const deck::MeshSource& mesh) {
+  nlohmann::json contents = nlohmann::json::object();
+  for (const deck::MeshFile& file : mesh.files)
+    contents[json_name(file.file.value)] = content_of(file.path);
+  return contents;
 }
 
 namespace {

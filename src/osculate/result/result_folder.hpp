@@ -7,6 +7,10 @@
 
 #include "osculate/io/append_file.hpp"
 
+namespace osculate::deck {
+struct MeshSource;
+}
+
 namespace osculate::result {
 
 /// The folder that was asked for, or the model's stem + `.results`.
@@ -42,6 +46,10 @@ class FolderLock {
 /// `model`, `model_path` and `model_content` of summary.json, as the file is now: to be taken once,
 /// before the file is read.
 [[nodiscard]] nlohmann::json owner_json(const std::string& model);
+
+/// `mesh_contents` of summary.json: {file: hash of its content} of the mesh files of a model, as
+/// they are now; to be taken before they are read. An empty text where a file cannot be read.
+[[nodiscard]] nlohmann::json mesh_contents(const deck::MeshSource& mesh);
 
 /// Creates the folder if there is none and says in summary.json whose results these will be. To be
 /// called before anything else: a run that is killed at any later moment leaves a folder that may
