@@ -9,7 +9,8 @@ struct LinePoint {
   double work = 0;        ///< of the residual along the whole correction, du . R
   double norm = 0;        ///< |R|
   bool branched = false;  ///< Result::branched: points have jumped over a border of their states
-  bool ok = true;         ///< false: no residual there (a cell has turned over)
+  bool ok = true;         ///< false: no residual there (a cell has turned over), as where `work` or
+                          ///< `norm` is not finite
 };
 
 /// How much of a correction to take: the rule of `osculate run`. Friction and facets make the work
@@ -20,7 +21,9 @@ struct LinePoint {
 ///            sign while the residual has not grown; else the zero of the work by Illinois' rule
 ///            where it has changed its sign, and halves until the residual has fallen where not: 1
 ///            if it falls by less than a thousandth. 1 where points are branched: the active set
-///            decides. Where there is no residual the step is halved first
+///            decides. Where there is no residual the step is halved first, up to ten times
+/// Limits     no residual at any of these steps: 2^-10, where there is none either; the increment
+///            has to be shorter. A start that is zero or not finite: 1 if there is a residual there
 /// Call       from the second iteration of an increment on, and not where the residual that the
 ///            correction was computed from was branched
 /// Tested by  tests/unit/embed/test_line_search.cpp (the same steps as the program's)
@@ -33,7 +36,9 @@ template <class At>
   };
   const auto look = [&](double step) {
     const LinePoint p = at(step);
-    return Found{step, p.work, p.norm, p.branched, p.ok};
+    if (!p.ok || !std::isfinite(p.work) || !std::isfinite(p.norm))
+      return Found{step, 0, 0, false, false};
+    return Found{step, p.work, p.norm, p.branched, true};
   };
   Found low{0, start.work, start.norm, false, true}, high = look(1);
   if (high.ok && high.branched) return 1;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
 #include <random>
 
 #include "../solve/toy_system.hpp"
@@ -93,6 +95,69 @@ TEST(LineSearch, OfHostsIsThatOfTheProgram) {
   EXPECT_GT(whole, 300);
   EXPECT_GT(parts, 300);
   EXPECT_GT(looks, 5);
+}
+
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double boundless = std::numeric_limits<double>::infinity();
+
+TEST(LineSearch, AResidualThatIsNotFiniteIsNone) {
+  std::mt19937 engine(20261129);
+  int none = 0;
+  for (int i = 0; i < 1000; ++i) {
+    Wavy wavy(engine);
+    wavy.none_from = 0.01 + 0.6 * std::generate_canonical<double, 30>(engine);
+    const Steps expected = of_host(wavy);
+    for (const LinePoint& bad :
+         {LinePoint{no_number, no_number}, LinePoint{no_number, 0.01}, LinePoint{-0.01, no_number},
+          LinePoint{0.1, boundless}, LinePoint{-boundless, boundless, true}}) {
+      std::vector<double> seen;
+      const double taken = line_search({wavy.start[0], wavy.start.norm()}, [&](double step) {
+        seen.push_back(step);
+        const Eigen::Vector2d r = wavy(step);
+        return step > wavy.none_from ? bad : LinePoint{r[0], r.norm()};
+      });
+      ASSERT_EQ(taken, expected.taken) << i;
+      ASSERT_EQ(seen, expected.seen) << i;
+    }
+    none += expected.seen.size() > 2 ? 1 : 0;
+  }
+  EXPECT_GT(none, 500);
+}
+
+TEST(LineSearch, WithoutAnyResidualTenHalvesAreTaken) {
+  std::mt19937 engine(20261130);
+  Wavy wavy(engine);
+  wavy.none_from = 0;
+  const Steps program = of_program(wavy), host = of_host(wavy);
+  EXPECT_EQ(program.taken, std::exp2(-10));
+  EXPECT_EQ(host.taken, std::exp2(-10));
+  ASSERT_EQ(host.seen.size(), 11U);
+  EXPECT_EQ(host.seen, program.seen);
+  for (const LinePoint& none : {LinePoint{no_number, no_number}, LinePoint{1e9, 1e9, false, false},
+                                LinePoint{-1, 1e-9, true, false}, LinePoint{1, boundless}}) {
+    int looks = 0;
+    const auto look = [&](double) {
+      ++looks;
+      return none;
+    };
+    EXPECT_EQ(line_search({-1, 1}, look), std::exp2(-10));
+    EXPECT_EQ(looks, 11);
+  }
+}
+
+TEST(LineSearch, AStartThatIsZeroOrNotFiniteAsksForNoLess) {
+  for (const LinePoint& start :
+       {LinePoint{0, 0}, LinePoint{no_number, no_number}, LinePoint{-boundless, boundless},
+        LinePoint{no_number, boundless}, LinePoint{-1, no_number}}) {
+    for (const double work : {-2.0, 0.0, 2.0}) {
+      const auto look = [&](double step) { return LinePoint{work, 3 + step}; };
+      EXPECT_EQ(line_search(start, look), 1) << start.norm << ' ' << work;
+      const auto torn = [&](double step) { return LinePoint{work, 3 + step, false, step < 0.3}; };
+      if (start.norm == 0) continue;
+      EXPECT_EQ(line_search(start, torn), 0.25) << start.norm << ' ' << work;
+    }
+  }
+  EXPECT_EQ(line_search({0, 0}, [](double) { return LinePoint{0, 0}; }), 1);
 }
 
 TEST(LineSearch, PointsThatJumpDecideThemselves) {
