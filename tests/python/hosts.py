@@ -2,6 +2,7 @@
 tolerance of both solvers."""
 import os
 import pathlib
+import resource
 import subprocess
 import tempfile
 
@@ -27,11 +28,20 @@ def order(points, of):
     return rows
 
 
+def run_host(command, processor_seconds=100, seconds=500):
+    """Runs a host. One that hangs is ended by what it has computed: on a busy machine a second of it takes several, and the
+    longest host needs 11. The other limit is for one that waits."""
+    def limited():
+        resource.setrlimit(resource.RLIMIT_CPU, (processor_seconds, processor_seconds))
+
+    subprocess.run([*map(str, command)], check=True, stdout=subprocess.DEVNULL, timeout=seconds, preexec_fn=limited)
+
+
 def compare(test, model, command):
     """Runs `command FOLDER` and examples/hosts/MODEL; `test` is a unittest.TestCase."""
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
-        subprocess.run([*map(str, command), str(folder)], check=True, stdout=subprocess.DEVNULL, timeout=200)
+        run_host([*command, folder])
         ours = columns(folder / "increments.csv")
         nodes = np.loadtxt(folder / "nodes.csv", delimiter=",")
         theirs = osculate.run(HOSTS / model, folder / "results")
