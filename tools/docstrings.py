@@ -5,7 +5,7 @@
 
 SOURCE: C++ or Python, in which a text `"osculate::layer::Type::member"` (of `comment_of`) names a declaration by
 its namespaces and classes. FOLDER: of headers. A name that no header declares, or without a comment, is an error.
-Behind the comment of a struct or enum stand those of its members, overloads have all of theirs. Whom a
+Behind the comment of a public struct or enum stand those of its members, overloads have all of theirs. Whom a
 declaration is tested by is left out, and C++ names are written as Python has them. TABLE.hpp.d: what it was made of.
 """
 import argparse
@@ -130,7 +130,7 @@ def text_of(name, declarations):
     """The comments of all that has this name; empty: there is none."""
     own = [d for d in declarations if name in d.names]
     parts = [without_tests(d.comment) for d in own]
-    if any(d.kind in ("struct", "enum") for d in own):
+    if name.count("::") == 1 and any(d.kind in ("struct", "enum") for d in own):  # of no layer
         values = [(", ".join(n.rpartition("::")[2] for n in d.names), d.comment) for d in declarations
                   if d.kind == "value" and d.comment and d.names[0].rpartition("::")[0] == name]
         width = max((len(word) for word, _ in values), default=0)

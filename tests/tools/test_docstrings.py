@@ -24,6 +24,15 @@ void twice(int a);
 /// And a second one.
 inline void twice(double a) { if (a > 0) { twice(1); } }
 
+/// A form.
+struct Form {
+  int size = 0;  ///< of the form
+};
+
+void bare();
+}  // namespace osculate::contact
+
+namespace osculate {
 /// Values.
 struct Point {
   double gap = 0, slip{0};  ///< negative inside,
@@ -44,9 +53,7 @@ enum class Status : std::uint8_t {
   projected,  ///< one place
   invalid     ///< none
 };
-
-void bare();
-}  // namespace osculate::contact
+}  // namespace osculate
 '''
 
 
@@ -79,14 +86,17 @@ class Docstrings(unittest.TestCase):
         self.assertEqual(self.comment("osculate::contact::twice"), "A first one.\n\nAnd a second one.")
 
     def test_a_struct_has_its_members_behind_its_comment(self):
-        self.assertEqual(self.comment("osculate::contact::Point"),
+        self.assertEqual(self.comment("osculate::Point"),
                          "Values.\n\ngap, slip  negative inside,\n           or along\nfacet      Which facet: Pattern.of.\n"
                          "kept_      for later")
-        self.assertEqual(self.comment("osculate::contact::Status"), "How good.\n\nprojected  one place\ninvalid    none")
+        self.assertEqual(self.comment("osculate::Status"), "How good.\n\nprojected  one place\ninvalid    none")
+
+    def test_members_of_a_layer_have_other_names_in_python(self):
+        self.assertEqual(self.comment("osculate::contact::Form"), "A form.")
 
     def test_a_member_has_its_own(self):
-        self.assertEqual(self.comment("osculate::contact::Point::slip"), "negative inside,\nor along")
-        self.assertEqual(self.comment("osculate::contact::Point::size"), "of it")
+        self.assertEqual(self.comment("osculate::Point::slip"), "negative inside,\nor along")
+        self.assertEqual(self.comment("osculate::Point::size"), "of it")
 
     def test_a_name_that_no_header_declares_is_an_error_with_its_place(self):
         done, table = self.table("osculate::contact::twice", "osculate::contact::normal_gaps")
