@@ -215,10 +215,15 @@ class ReachSearch {
         return d + master_[spot(f)].lever * reach_.motion;
       });
     }
+    return std::min(most, farthest_contact()) * (1 + 1e-9);
+  }
+
+  /// And within this distance, if it is in contact there.
+  [[nodiscard]] double farthest_contact() const {
     // Friction remembers places of open points, too.
     if (only_penalty() && !pair_.friction && pair_.overlap == InitialOverlap::acts)
-      most = std::min(most, std::max(pair_.depth, onset()));
-    return std::min(most, reach_.distance) * (1 + 1e-9);
+      return std::min(reach_.distance, std::max(pair_.depth, onset()));
+    return reach_.distance;
   }
 
   /// What a point may have gone since the last increment.
@@ -234,13 +239,13 @@ class ReachSearch {
   }
 
   /// Facets that the place of a point may be on: because they are near, or because they are beside
-  /// such a facet, or beside that of its history.
+  /// such a facet, or beside that of its history, or beside one that it may have come to so.
   struct Candidates {
     std::vector<Index> near, all;
   };
   [[nodiscard]] Candidates candidates(const At& at) const {
     Candidates out;
-    const double radius = farthest_place(at) + at.lever * reach_.motion;
+    const double place = farthest_place(at), radius = place + at.lever * reach_.motion;
     moved_.for_each_within(at.point, radius, [&](Index f) { out.near.push_back(f); });
     sort_out(out.near);
     out.all = out.near;
@@ -250,8 +255,57 @@ class ReachSearch {
       for (const Index f : found) out.all.insert(out.all.end(), beside(f).begin(), beside(f).end());
     }
     sort_out(out.all);
+    if (place < farthest_contact() && may_be_across(at, out.near)) follow(at, out.all);
     std::erase_if(out.all, [&](Index f) { return is_no_candidate(at, f); });
     return out;
+  }
+
+  /// Whether the point may come behind a facet across, instead of which it keeps the side that it
+  /// came through (`entered_through`).
+  [[nodiscard]] bool may_be_across(const At& at, const std::vector<Index>& near) const {
+    return at.faces && std::ranges::any_of(near, [&](Index f) {
+             const double least = angles(at.cone, master_[spot(f)].cone)[0];
+             return least < std::acos(facing_cosine) && !in_front(at, f, f);
+           });
+  }
+
+  /// Whether the point may have a foot inside the facet, behind it, and face it there.
+  ///
+  /// Formula    the way to a foot is along the normal there: places of the facet, less that of the
+  ///            point, are within r of w, normals within alpha of a; angle(w, a) <= alpha +
+  ///            asin(r / |w|)
+  [[nodiscard]] bool may_hold(const At& at, Index f) const {
+    const MovingFacet<Dim>& facet = master_[spot(f)];
+    if (angles(at.cone, facet.cone)[1] < std::acos(facing_cosine) || in_front(at, f, f))
+      return false;
+    if (!facet.cone.narrow()) return true;
+    const Vec<Dim> way = 0.5 * (facet.box.lo + facet.box.hi) - at.point;
+    const double length = way.norm(), radius = 0.5 * (facet.box.hi - facet.box.lo).norm() +
+                                               (facet.lever + at.lever) * reach_.motion;
+    if (length <= radius) return true;
+    const double between = std::acos(std::clamp(way.dot(facet.cone.axis) / length, -1.0, 1.0));
+    return between <= facet.cone.angle + std::asin(radius / length) + 1e-9;
+  }
+
+  /// Adds facets that a point may come to by one increment after the other, each on a facet beside
+  /// the last one.
+  void follow(const At& at, std::vector<Index>& facets) const {
+    std::vector<bool> seen(master_.size());
+    for (const Index f : facets) seen[spot(f)] = true;
+    std::vector<Index> next;
+    for (const Index f : facets)
+      if (may_hold(at, f)) next.push_back(f);
+    while (!next.empty()) {
+      const Index from = next.back();
+      next.pop_back();
+      for (const Index f : beside(from)) {
+        if (seen[spot(f)] || !may_hold(at, f)) continue;
+        seen[spot(f)] = true;
+        facets.push_back(f);
+        next.push_back(f);
+      }
+    }
+    sort_out(facets);
   }
 
   [[nodiscard]] bool only_penalty() const {

@@ -40,7 +40,10 @@ struct ReachablePoint {
 ///            facing  facets that must face the same way as the point are no candidates, nor (of
 ///                    contact with itself) those that cannot come to face it
 ///            history facets beside a candidate and that of the history are candidates, too: a
-///                    point stays on the side that it came through
+///                    point stays on the side that it came through. Where it may come behind a
+///                    near facet that does not face it, so are facets beside those, on and on, in
+///                    which it may have a foot: one a committed increment (small facets behind
+///                    which a point is deep: the whole side, if their normals are not bounded)
 /// Path       with friction all facets between two candidates, in the plane along the chain
 /// Requires   a pair that `prepare` has seen; neither mortar (unless tied) nor edge-edge contacts:
 ///            core::GeometryError
