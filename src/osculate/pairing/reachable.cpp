@@ -255,7 +255,8 @@ class ReachSearch {
       for (const Index f : found) out.all.insert(out.all.end(), beside(f).begin(), beside(f).end());
     }
     sort_out(out.all);
-    if (place < farthest_contact() && may_be_across(at, out.near)) follow(at, out.all);
+    if (!pair_.filter.limited() && place < farthest_contact() && may_be_across(at, out.near))
+      follow(at, out.all);
     std::erase_if(out.all, [&](Index f) { return is_no_candidate(at, f); });
     return out;
   }

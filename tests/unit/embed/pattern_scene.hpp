@@ -23,17 +23,17 @@ struct Scene {
   static double wave(double a, double b) { return 0.1 * std::sin(1.3 * a + 0.4 * b); }
 };
 
-/// `order` 1 to 3: of the lines.
-Scene<2> plane(int order) {
+/// `order` 1 to 3: of the lines; the slave is in the middle of `facets` of the master.
+inline Scene<2> plane(int order, int facets = 12) {
   Scene<2> s;
   const FacetType type = static_cast<FacetType>(order - 1);
-  const auto line = [&](int facets, double from, double to, double up) {
+  const auto line = [&](int count, double from, double to, double up) {
     Facets out{type, {}};
     Index end = s.node({from, up + Scene<2>::wave(from, 0)});
-    for (int f = 0; f < facets; ++f) {
+    for (int f = 0; f < count; ++f) {
       std::vector<Index> inside;
       const auto at = [&](int k) {
-        const double a = from + (to - from) * (f + static_cast<double>(k) / order) / facets;
+        const double a = from + (to - from) * (f + static_cast<double>(k) / order) / count;
         return s.node({a, up + Scene<2>::wave(a, 0)});
       };
       for (int k = 1; k < order; ++k) inside.push_back(at(k));
@@ -44,28 +44,28 @@ Scene<2> plane(int order) {
     }
     return out;
   };
-  s.contact.master.facets = {line(12, 0, 12, 0)};
+  s.contact.master.facets = {line(facets, 0, facets, 0)};
   s.contact.slave.emplace();
-  s.contact.slave->facets = {line(4, 7.3, 4.1, -0.02)};
+  s.contact.slave->facets = {line(4, facets / 2 + 1.3, facets / 2 - 1.9, -0.02)};
   s.contact.normal = Penalty{100};
   s.contact.friction = Coulomb{.mu = 0.3, .stiffness = 200};
   return s;
 }
 
 /// Corners of triangles are those of squares, cut in two.
-Scene<3> space(FacetType type) {
+inline Scene<3> space(FacetType type, int size = 6) {
   Scene<3> s;
   const bool second =
       type == FacetType::quad9 || type == FacetType::quad8 || type == FacetType::tri6;
   const bool triangle = type == FacetType::tri3 || type == FacetType::tri6;
   const int step = second ? 2 : 1;
-  const auto sheet = [&](int n, double from, double size, double up, bool turned) {
+  const auto sheet = [&](int n, double from, double width, double up, bool turned) {
     Facets out{type, {}};
     const int side = step * n + 1;
     const Index first = static_cast<Index>(s.x.size() / 3);
     for (int j = 0; j < side; ++j)
       for (int i = 0; i < side; ++i) {
-        const double a = from + size * i / (side - 1), b = from + size * j / (side - 1);
+        const double a = from + width * i / (side - 1), b = from + width * j / (side - 1);
         s.node({a, b, up + Scene<3>::wave(a, b)});
       }
     const auto at = [&](int i, int j) { return first + (turned ? i * side + j : j * side + i); };
@@ -90,9 +90,9 @@ Scene<3> space(FacetType type) {
       }
     return out;
   };
-  s.contact.master.facets = {sheet(6, 0, 6, 0, false)};
+  s.contact.master.facets = {sheet(size, 0, size, 0, false)};
   s.contact.slave.emplace();
-  s.contact.slave->facets = {sheet(2, 2.2, 1.7, -0.02, true)};
+  s.contact.slave->facets = {sheet(2, size / 2 - 0.8, 1.7, -0.02, true)};
   s.contact.normal = Penalty{100};
   s.contact.friction = Coulomb{.mu = 0.3, .stiffness = 200};
   return s;
@@ -139,7 +139,8 @@ std::vector<double> moved(const Scene<Dim>& s, const std::vector<double>& from, 
 
 struct Found {
   std::size_t entries = 0, couplings = 0, all = 0, allowed = 0;
-  int outside = 0, contacts = 0;
+  int outside = 0, contacts = 0, at_borders = 0;
+  std::set<std::pair<std::ptrdiff_t, Index>> facets{};  ///< that points were on
 };
 
 template <int Dim>
@@ -149,7 +150,7 @@ bool has(const Pattern& p, Index row, Index column) {
              end = p.columns.begin() + p.row_start[n + 1];
   return std::binary_search(begin, end, column / Dim);
 }
-bool has_node(const Pattern& p, std::size_t point, Index node) {
+inline bool has_node(const Pattern& p, std::size_t point, Index node) {
   const auto begin = p.point_nodes.begin();
   return std::binary_search(begin + p.point_start[point], begin + p.point_start[point + 1], node);
 }
@@ -167,7 +168,12 @@ void compare(const Evaluator<Dim>& evaluator, const Pattern& p, double promised,
     ++found.entries;
     found.outside += has<Dim>(p, e.row, e.column) ? 0 : 1;
   }
-  for (const ContactPoint<Dim>& point : r.points()) found.contacts += point.normal_traction != 0;
+  for (const ContactPoint<Dim>& point : r.points()) {
+    found.contacts += point.normal_traction != 0;
+    const bool at_border = point.feature == Feature::edge || point.feature == Feature::corner;
+    found.at_borders += point.normal_traction != 0 && at_border;
+    found.facets.insert({&point - r.points().data(), point.facet});
+  }
   const auto per = evaluator.unknowns_per_point();
   for (const Entry& e : r.constraints().rows)
     if (e.value != 0)
@@ -177,42 +183,60 @@ void compare(const Evaluator<Dim>& evaluator, const Pattern& p, double promised,
       found.outside += has_node(p, std::size_t(e.column / per), e.row / Dim) ? 0 : 1;
 }
 
-/// Increments of a few iterations at random places within the reach, committed or taken back.
+/// What a host does with a pattern.
 template <int Dim>
-Found trials(const Scene<Dim>& s, const Reach& within, bool commits = true,
-             int count = Dim == 2 ? 60 : 25) {
-  const double reach = within.motion;
-  const Evaluator<Dim> evaluator(s.contact, s.x);
-  const History<Dim> first = evaluator.initial_history(s.x);
-  const Pattern p = evaluator.pattern(s.x, first, within);
-  Found found;
-  found.couplings = p.couplings.size();
-  found.allowed = p.columns.size();
-  std::size_t facets = s.contact.master.framed.shapes.size();
-  for (const Facets& f : s.contact.master.facets) {
+struct Way {
+  Reach within;
+  bool commits = true;
+  bool renewed = false;  ///< after each commit it asks for a pattern from there
+  int count = Dim == 2 ? 60 : 25;
+  std::vector<double> from = {};  ///< of the initial history; empty: where the scene is
+};
+
+template <int Dim>
+std::size_t facet_count(const Surface<Dim>& surface) {
+  std::size_t facets = surface.framed.shapes.size();
+  for (const Facets& f : surface.facets) {
     constexpr std::array<std::size_t, 12> nodes{2, 3, 4, 5, 6, 7, 8, 3, 6, 4, 8, 9};
     facets += f.nodes.size() / nodes[static_cast<std::size_t>(f.type)];
   }
-  found.all = evaluator.slave_points().size() * facets;
+  return facets;
+}
+
+/// Increments of a few iterations at random places within the reach, committed or taken back.
+template <int Dim>
+Found trials(const Scene<Dim>& s, const Way<Dim>& way) {
+  const double reach = way.within.motion;
+  const Evaluator<Dim> evaluator(s.contact, s.x);
+  History<Dim> history = evaluator.initial_history(way.from.empty() ? s.x : way.from);
+  Pattern p = evaluator.pattern(s.x, history, way.within);
+  Found found;
+  found.couplings = p.couplings.size();
+  found.allowed = p.columns.size();
+  found.all = evaluator.slave_points().size() * facet_count(s.contact.master);
   EXPECT_TRUE(std::ranges::is_sorted(
       p.couplings, {}, [](const Coupling& c) { return std::pair(c.point, c.facet); }));
   Random random;
-  History<Dim> history = first;
   Multipliers<Dim> multipliers = evaluator.initial_multipliers();
   for (Multiplier<Dim>& m : multipliers.points) m.normal = -1;
-  std::vector<double> x = s.x;
-  for (int t = 0; t < count; ++t) {
+  std::vector<double> base = s.x, x = s.x;
+  for (int t = 0; t < way.count; ++t) {
     ActiveSet<Dim> active = evaluator.predicted(history, x);
     Result<Dim> result;
     for (int iteration = 0; iteration < 4; ++iteration) {
       evaluator.evaluate(x, history, active, multipliers, result);
-      compare(evaluator, p, within.distance, result, found);
+      compare(evaluator, p, way.within.distance, result, found);
       active = result.next_active_set();
-      x = moved(s, s.x, reach, random, (t + iteration) % 2 == 0);
+      if (s.contact.reentrant_vertices) multipliers = result.multipliers();
+      x = moved(s, base, reach, random, (t + iteration) % 2 == 0);
     }
     evaluator.evaluate(x, history, active, multipliers, result);
-    compare(evaluator, p, within.distance, result, found);
-    if (commits && t % 2 == 0) history = result.committed();
+    compare(evaluator, p, way.within.distance, result, found);
+    if (!way.commits || t % 2 != 0) continue;
+    history = result.committed();
+    if (!way.renewed) continue;
+    base = x;
+    p = evaluator.pattern(base, history, way.within);
   }
   return found;
 }
@@ -222,7 +246,7 @@ template <int Dim>
 void expect_covered(const char* name, const Scene<Dim>& s, double reach, double most,
                     bool commits = true) {
   SCOPED_TRACE(name);
-  const Found found = trials(s, {.motion = reach}, commits);
+  const Found found = trials(s, Way<Dim>{.within = {.motion = reach}, .commits = commits});
   EXPECT_EQ(found.outside, 0) << "of " << found.entries;
   EXPECT_GT(found.entries, 1000u);
   EXPECT_GT(found.contacts, 50);

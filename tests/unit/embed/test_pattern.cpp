@@ -14,6 +14,7 @@ using testing::Sample;
 using testing::Scene;
 using testing::space;
 using testing::trials;
+using testing::Way;
 using testing::with;
 
 TEST(Pattern, HasAllEntriesWithinTheReachInThePlane) {
@@ -90,8 +91,8 @@ TEST(Pattern, HasAllEntriesWithinTheReachInSpace) {
 /// Nodes may move so far that facets turn over, and bounds of normals say nothing.
 TEST(Pattern, OfALargeReachIsAsFarAsTheHostPromises) {
   const Scene<2> s = plane(1);
-  const Found all = trials(s, {.motion = 0.9}),
-              promised = trials(s, {.motion = 0.9, .distance = 0.5});
+  const Found all = trials(s, Way<2>{{.motion = 0.9}}),
+              promised = trials(s, Way<2>{{.motion = 0.9, .distance = 0.5}});
   EXPECT_EQ(all.couplings, all.all);
   EXPECT_GT(promised.entries, 1000u);
   EXPECT_LT(promised.entries, all.entries);
@@ -107,7 +108,8 @@ TEST(Pattern, OfTiesIsExact) {
       c.separation = Separation::tied;
       c.tolerance = 0.1;
     });
-    const Found found = trials(tied, {.motion = 0.2}, false, 5);
+    const Found found =
+        trials(tied, Way<3>{.within = {.motion = 0.2}, .commits = false, .count = 5});
     EXPECT_EQ(found.outside, 0);
     EXPECT_GT(found.entries, 100u);
     EXPECT_LT(found.couplings, found.all / 4);
