@@ -263,6 +263,16 @@ module osculate_contact
       integer(c_int32_t), value :: base
       integer(c_size_t), intent(inout) :: size
     end function
+    integer(c_int) function osculate_pattern_csr64(pattern, row_of, row_count, column_of, &
+                                                   column_count, rows, base, row_start, columns, &
+                                                   size) bind(c)
+      import
+      type(c_ptr), value :: pattern, row_start, columns
+      integer(c_size_t), value :: row_count, column_count, rows
+      integer(c_int64_t), intent(in) :: row_of(*), column_of(*)
+      integer(c_int32_t), value :: base
+      integer(c_size_t), intent(inout) :: size
+    end function
     integer(c_int) function osculate_read_history(evaluator, bytes, size, out) bind(c)
       import
       type(c_ptr), value :: evaluator, bytes, out

@@ -130,32 +130,39 @@ TEST(Pattern, IsAsFarAsTheNearestFacetWhereNormalsAreBounded) {
 
 // ---- far enough ---------------------------------------------------------------------------------
 
-/// A block whose lower side has short facets, and a slave deep inside it, nearer to the block's
-/// left side: its first node keeps the lower side, through which it came.
-Scene<2> corner_of_a_block() {
+/// A block whose lower side has nodes at these places, descending to its left corner, and a slave
+/// deep inside it, nearer to the block's left side: its first node keeps the lower side, through
+/// which it came.
+Scene<2> corner_of_a_block(const std::vector<double>& lower, double at) {
   Scene<2> s;
   Facets line{FacetType::line2, {}};
   std::vector<Index> nodes;
-  for (int k = 40; k >= 0; --k) nodes.push_back(s.node({0.05 * k, 0.0}));
+  for (const double x : lower) nodes.push_back(s.node({x, 0.0}));
   for (const double up : {2.0, 4.0}) nodes.push_back(s.node({0.0, up}));
   for (std::size_t k = 0; k + 1 < nodes.size(); ++k)
     line.nodes.insert(line.nodes.end(), {nodes[k], nodes[k + 1]});
   s.contact.master.facets = {line};
   s.contact.slave.emplace();
-  const Index a = s.node({0.325, 2.5}), b = s.node({1.325, 2.5});
+  const Index a = s.node({at, 2.5}), b = s.node({at + 1, 2.5});
   s.contact.slave->facets = {{FacetType::line2, {a, b}}};
   s.contact.normal = Penalty{100};
   return s;
 }
+/// Short ones.
+Scene<2> corner_of_a_block() {
+  std::vector<double> lower;
+  for (int k = 40; k >= 0; --k) lower.push_back(0.05 * k);
+  return corner_of_a_block(lower, 0.325);
+}
 
-/// With the slave moved along the first axis and by the second one in the plane, the last in space.
+/// With the slave moved along the first axis and another one.
 template <int Dim>
-std::vector<double> shifted(const Scene<Dim>& s, double along, double up) {
+std::vector<double> shifted(const Scene<Dim>& s, double along, double up, int axis = 1) {
   std::vector<double> x = s.x;
   const std::vector<Index>& facets = s.contact.slave->facets[0].nodes;
   for (const Index n : std::set<Index>(facets.begin(), facets.end())) {
     x[static_cast<std::size_t>(Dim * n)] += along;
-    x[static_cast<std::size_t>(Dim * n + 1)] += up;
+    x[static_cast<std::size_t>(Dim * n + axis)] += up;
   }
   return x;
 }
@@ -183,26 +190,30 @@ Scene<3> extruded(const Scene<2>& flat, int layers, double height) {
   return s;
 }
 
-TEST(Pattern, FollowsAPointAlongTheSideThatItCameThrough) {
-  const Scene<2> s = corner_of_a_block();
+/// Slides over `count` facets, one after the other: each is beside that of the history.
+void expect_kept(const Scene<2>& s, double reach, double step, std::size_t count) {
   const Evaluator<2> evaluator(s.contact, s.x);
   History<2> history = evaluator.initial_history(shifted(s, 0, -2.6));
-  const double reach = 0.15;
   const Pattern p = evaluator.pattern(s.x, history, {.motion = reach});
+  Found found;
   Result<2> r;
-  std::set<Index> facets;
-  int outside_pattern = 0;
-  for (double along = 0; along < reach; along += 0.048) {
+  for (double along = 0; along < reach; along += step) {
     evaluator.evaluate(shifted(s, along, 0), history, {}, r);
-    const ContactPoint<2>& point = r.points()[0];
-    EXPECT_LT(point.normal_traction, 0);
-    facets.insert(point.facet);
-    for (const Entry& e : r.tangent())
-      if (e.value != 0 && !testing::has<2>(p, e.row, e.column)) ++outside_pattern;
+    EXPECT_LT(r.points()[0].normal_traction, 0);
+    compare(evaluator, p, std::numeric_limits<double>::infinity(), r, found);
     history = r.committed();
   }
-  EXPECT_EQ(facets.size(), 4u);  // one after the other: each is beside that of the history
-  EXPECT_EQ(outside_pattern, 0);
+  EXPECT_EQ(found.outside, 0) << "of " << found.entries;
+  std::set<Index> facets;
+  for (const auto& [point, facet] : found.facets)
+    if (point == 0) facets.insert(facet);
+  EXPECT_EQ(facets.size(), count);
+}
+TEST(Pattern, FollowsAPointAlongTheSideThatItCameThrough) {
+  expect_kept(corner_of_a_block(), 0.15, 0.048, 4);
+}
+TEST(Pattern, FollowsAPointOverAShortFacetToALongOne) {
+  expect_kept(corner_of_a_block({2.0, 1.0, 0.402, 0.4, 0.0}, 0.3995), 0.004, 0.0015, 3);
 }
 
 /// Nodes that each go their own way turn the short facets, and move feet on them by far more.
@@ -254,26 +265,45 @@ TEST(Pattern, OfPointsThatMayNotBeDeep) {
   }
 }
 
-/// By a search distance a pattern is of one history: the host asks anew after each commit.
-TEST(Pattern, ByASearchDistanceIsAskedForAfterEachCommit) {
-  const auto expect_near = [](const auto& s, auto way) {
-    const Found found = trials(s, way);
+/// By a search distance a pattern is of one history: the host asks anew after each commit. Points
+/// have a place at first, or come from where they see none.
+template <int Dim>
+void expect_near(Scene<Dim> s, double reach) {
+  s.contact.search_distance = 0.4;
+  for (const bool placed : {true, false}) {
+    SCOPED_TRACE(placed);
+    const std::vector<double> from = shifted(s, 0, placed ? 0.0 : 1.0, Dim - 1);
+    if (!placed) s.x = shifted(s, 0, -0.07, Dim - 1);
+    const Found found =
+        trials(s, Way<Dim>{.within = {.motion = reach}, .renewed = true, .from = from});
     EXPECT_EQ(found.outside, 0) << "of " << found.entries;
     EXPECT_GT(found.entries, 1000u);
     EXPECT_LT(4 * found.couplings, 3 * found.all);
-  };
-  for (const double reach : {0.02, 0.1, 0.3}) {
+  }
+}
+TEST(Pattern, ByASearchDistanceIsAskedForAfterEachCommit) {
+  for (const double reach : {0.01, 0.02, 0.1, 0.3}) {
     SCOPED_TRACE(reach);
     for (const bool friction : {true, false}) {
-      const auto near = [&](auto& c) {
-        c.search_distance = 0.4;
+      const auto chosen = [&](auto& c) {
         if (!friction) c.friction.reset();
       };
-      expect_near(with<2>(plane(1, 30), near),
-                  Way<2>{.within = {.motion = reach}, .renewed = true});
-      expect_near(with<3>(space(FacetType::quad4, 14), near),
-                  Way<3>{.within = {.motion = reach}, .renewed = true});
+      expect_near(with<2>(plane(1, 30), chosen), reach);
+      expect_near(with<3>(space(FacetType::quad4, 14), chosen), reach);
     }
+  }
+}
+
+/// A promise of the host's holds for points in contact: they may have been farther away before.
+TEST(Pattern, OfPointsThatComeFromAfar) {
+  for (const double reach : {0.3, 0.9}) {
+    SCOPED_TRACE(reach);
+    Scene<2> s = plane(1, 60);
+    s.x = shifted(s, 0, 0.6 * reach);
+    const Found found =
+        trials(s, Way<2>{.within = {.motion = reach, .distance = 0.1}, .count = 400});
+    EXPECT_EQ(found.outside, 0) << "of " << found.entries;
+    EXPECT_GT(found.entries, 1000u);
   }
 }
 
