@@ -250,18 +250,22 @@ TEST(Pattern, FollowsAPointOverFacetsThatTurnInSpace) {
   expect_followed(extruded(corner_of_a_block(), 1, 0.8), 40, 600);
 }
 
+/// Some are deeper than they may be, some not.
+template <int Dim>
+void expect_shallow(Scene<Dim> s, double reach, double most) {
+  s.contact.depth = 0.2;
+  s.x = shifted(s, 0, -0.16, Dim - 1);
+  for (const bool friction : {true, false}) {
+    SCOPED_TRACE(friction);
+    if (!friction) s.contact.friction.reset();
+    expect_covered("shallow", s, reach, most);
+  }
+}
 TEST(Pattern, OfPointsThatMayNotBeDeep) {
   for (const double reach : {0.01, 0.04, 0.15}) {
     SCOPED_TRACE(reach);
-    for (const bool friction : {true, false}) {
-      const auto shallow = [&](auto& c) {
-        c.depth = 0.05;
-        if (!friction) c.friction.reset();
-      };
-      expect_covered("plane", with<2>(plane(1), shallow), reach, reach > 0.04 ? 1 : 0.6);
-      expect_covered("space", with<3>(space(FacetType::quad4), shallow), 0.6 * reach,
-                     reach > 0.04 ? 1 : 0.6);
-    }
+    expect_shallow(plane(1), reach, reach > 0.04 ? 1 : 0.6);
+    expect_shallow(space(FacetType::quad4), 0.6 * reach, reach > 0.04 ? 1 : 0.6);
   }
 }
 
@@ -292,6 +296,57 @@ TEST(Pattern, ByASearchDistanceIsAskedForAfterEachCommit) {
       expect_near(with<3>(space(FacetType::quad4, 14), chosen), reach);
     }
   }
+}
+
+/// A flat master of facets of one length, and a slave line behind it.
+Scene<2> flat(double facet, double deep) {
+  Scene<2> s;
+  s.facet = facet;
+  Facets line{FacetType::line2, {}};
+  for (Index k = 0; k <= 40; ++k) s.node({facet * (k - 20), 0.0});
+  for (Index k = 0; k < 40; ++k) line.nodes.insert(line.nodes.end(), {k, k + 1});
+  s.contact.master.facets = {line};
+  s.contact.slave.emplace();
+  const Index a = s.node({5.4 * facet, -deep}), b = s.node({-5.4 * facet, -deep});
+  s.contact.slave->facets = {{FacetType::line2, {a, b}}};
+  s.contact.normal = Penalty{100};
+  return s;
+}
+
+/// Both sides go the whole reach, in opposite directions.
+void expect_apart(const Scene<2>& s, const Reach& within) {
+  const Evaluator<2> evaluator(s.contact, s.x);
+  const History<2> history = evaluator.initial_history(s.x);
+  const Pattern p = evaluator.pattern(s.x, history, within);
+  const double d = 0.999 * within.motion;
+  Result<2> at_rest, r;
+  evaluator.evaluate(s.x, history, {}, at_rest);
+  for (const double way : {-d, d}) {
+    std::vector<double> x = shifted(s, 2 * way, 0);
+    for (std::size_t k = 0; k < x.size(); k += 2) x[k] -= way;
+    evaluator.evaluate(x, history, {}, r);
+    Found found;
+    compare(evaluator, p, within.distance, r, found);
+    EXPECT_EQ(found.contacts, 2);
+    EXPECT_EQ(found.outside, 0) << "of " << found.entries;
+    for (std::size_t i = 0; i < 2; ++i)
+      EXPECT_EQ(std::abs(r.points()[i].facet - at_rest.points()[i].facet),
+                std::lround(2 * within.motion / s.facet));
+  }
+  const double place = std::min(within.distance, s.contact.depth) + 2 * within.motion;
+  EXPECT_LE(static_cast<double>(p.couplings.size()), 2 * (2 * (place / s.facet + 0.1) + 4));
+}
+TEST(Pattern, OfSidesThatGoApart) {
+  expect_apart(flat(0.025, 0.01), {.motion = 0.1, .distance = 0.02});
+  Scene<2> deep = flat(0.05, 0.15);
+  deep.contact.depth = 0.2;
+  expect_apart(deep, {.motion = 0.1});
+}
+/// Facets far shorter than the point is deep.
+TEST(Pattern, OfSidesThatGoApartDeep) {
+  Scene<2> s = flat(0.01, 0.07);
+  s.contact.depth = 0.08;
+  expect_apart(s, {.motion = 0.02});
 }
 
 /// A promise of the host's holds for points in contact: they may have been farther away before.
