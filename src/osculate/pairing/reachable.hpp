@@ -47,7 +47,7 @@ struct ReachablePoint {
 /// Path       with friction all facets between two candidates, in the plane along the chain
 /// Requires   a pair that `prepare` has seen; neither mortar (unless tied) nor edge-edge contacts:
 ///            core::GeometryError
-/// Tested by  tests/unit/embed/test_pattern.cpp (in random trials)
+/// Tested by  tests/unit/embed/test_pattern.cpp (in random trials), test_pattern_reach.cpp
 template <int Dim>
 [[nodiscard]] std::vector<ReachablePoint> reachable(const PairDefinition<Dim>& pair, Points<Dim> x,
                                                     const PairState<Dim>& committed,
