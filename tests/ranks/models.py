@@ -1,0 +1,159 @@
+"""Small models of every kind of work that several processes share, or do each."""
+
+PLANE = """osculate: 1
+mesh:
+  generate:
+    low: {box: {x: [0, 3], y: [0, 1], elements: [12, 3]}}
+    up: {box: {x: [0.3, 1.45], y: [1, 1.8], elements: [6, 3]}}
+materials: {m: MATERIAL}
+sections: [{on: low, material: m, element: plane_strain}, {on: up, material: m, element: plane_strain}]
+contact: CONTACT
+steps:
+  - {name: press, increments: 2, prescribe: [{on: low.bottom, ux: 0, uy: 0}, {on: up.top, ux: 0, uy: -0.03}]}
+  - {name: drag, increments: 4, MOREprescribe: [{on: up.top, ux: 0.3}]}
+output: {history: [{on: c, of: normal_force}, {on: c, of: force_x}, {on: up.top, of: rfx}, {on: up.top, of: rfy},
+  {on: low.bottom, of: rfy}, {on: up.right, of: ux}]}
+"""
+SPACE = """osculate: 1
+mesh:
+  generate:
+    low: {box: {x: [0, 3], y: [0, 2], z: [0, 1], elements: [5, 3, 1]}}
+    up: {box: {x: [0.3, 1.4], y: [0.4, 1.5], z: [1, 1.8], elements: [3, 3, 2]}}
+materials: {m: MATERIAL}
+sections: [{on: low, material: m, element: solid}, {on: up, material: m, element: solid}]
+contact: CONTACT
+steps:
+  - {name: press, increments: 2, prescribe: [{on: low.bottom, ux: 0, uy: 0, uz: 0},
+      {on: up.top, ux: 0, uy: 0, uz: -0.03}]}
+  - {name: drag, increments: 3, prescribe: [{on: up.top, ux: 0.3, uy: 0.1}]}
+output: {history: [{on: c, of: normal_force}, {on: c, of: force_x}, {on: up.top, of: rfx}, {on: up.top, of: rfz},
+  {on: up.right, of: uy}]}
+"""
+# Two beams, each with an edge up: one is dragged over the other, edge on edge.
+EDGES = """osculate: 1
+mesh:
+  generate:
+    low: {box: {x: [-1.5, 1.5], y: [-0.3, 0.3], z: [-0.3, 0.3], elements: [7, 2, 2], angle: 45,
+                axis: [1, 0, 0], about: [0, 0, 0]}}
+    high: {box: {x: [-0.3, 0.3], y: [-1.5, 1.5], z: [0.5485, 1.1485], elements: [2, 7, 2], angle: 45,
+                 axis: [0, 1, 0], about: [0, 0, 0.8485]}}
+materials: {m: {linear_elastic: {E: 100, nu: 0.3}}}
+sections: [{on: low, material: m, element: solid}, {on: high, material: m, element: solid}]
+contact: [{name: c, master: low, slave: high, normal: {penalty: 2000}, friction: {coulomb: {mu: 0.3}}, edges: true,
+           search: {depth: 0.2}}]
+steps:
+  - name: press
+    increments: 2
+    prescribe: [{on: low.left, ux: 0, uy: 0, uz: 0}, {on: low.right, ux: 0, uy: 0, uz: 0},
+      {on: high.front, ux: 0, uy: 0, uz: -0.05}, {on: high.back, ux: 0, uy: 0, uz: -0.05}]
+  - {name: drag, increments: 3, prescribe: [{on: high.front, ux: 0.3}, {on: high.back, ux: 0.3}]}
+output: {history: [{on: c, of: normal_force}, {on: c, of: force_x}, {on: low.left, of: rfz}]}
+"""
+# A ball that turns is thrown on a block, which swings.
+BALL = """osculate: 1
+mesh: {generate: {low: {box: {x: [-2, 2], y: [-2, 2], z: [-1, 0], elements: [4, 4, 2]}}}}
+materials: {m: {linear_elastic: {E: 1000, nu: 0.3, density: 0.5}}}
+sections: [{on: low, material: m, element: solid}]
+rigid: {ball: {sphere: {center: [0.1, 0.05, 0.99], radius: 1}, mass: 2, inertia: [0.5, 0.8, 1.1, 0.05, -0.1, 0.02]}}
+contact: [{name: c, master: ball, slave: low.top, normal: {penalty: 3000}, friction: {coulomb: {mu: 0.3}}}]
+initial_velocity: [{on: ball, vx: 3, vz: -1, wx: 20, wy: -10, wz: 30}]
+steps:
+  - {name: press, increments: 3, duration: 0.03, gravity: [0, 0, -9.81], dynamics: {},
+     prescribe: [{on: low.bottom, ux: 0, uy: 0, uz: 0}]}
+  - {name: drag, increments: 5, duration: 0.05, dynamics: {scheme: {generalized_alpha: {radius: 0.7}}, mass: lumped,
+     damping: {stiffness: 1.0e-4}}}
+output: {history: [{on: c, of: normal_force}, {on: ball, of: wx}, {on: ball, of: rx}, {on: ball, of: vz}]}
+"""
+# The upper block hangs on a rigid plate that a force presses and a moment turns.
+PLATE = """osculate: 1
+mesh:
+  generate:
+    low: {box: {x: [0, 3], y: [0, 1], elements: [12, 3]}}
+    up: {box: {x: [0.3, 1.45], y: [1, 1.8], elements: [6, 3]}}
+materials: {m: {neo_hooke: {E: 100, nu: 0.3}}}
+sections: [{on: low, material: m, element: plane_strain}, {on: up, material: m, element: plane_strain}]
+rigid: {plate: {set: up.top, reference: [0.9, 1.8]}}
+contact: [{name: c, master: low.top, slave: up.bottom, sampling: {gauss: 2}, friction: {coulomb: {mu: 0.3}}}]
+steps:
+  - {name: press, increments: 2, prescribe: [{on: low.bottom, ux: 0, uy: 0}, {on: plate, ux: 0, uy: -0.03, rz: 0}]}
+  - {name: turn, increments: 3, release: [{on: plate, of: [uy, rz]}], prescribe: [{on: plate, ux: 0.1}],
+     forces: [{on: plate, fy: -3, mz: 0.2}]}
+output: {history: [{on: plate, of: uy}, {on: plate, of: rz}, {on: plate, of: rfx}, {on: c, of: normal_force}]}
+"""
+# Pressed, then what vibrates and what buckles of it.
+MODES = """osculate: 1
+mesh: {generate: {b: {box: {x: [0, 4], y: [0, 0.5], elements: [16, 2]}}}}
+materials: {m: {linear_elastic: {E: 1000, nu: 0.3, density: 1}}}
+sections: [{on: b, material: m, element: plane_strain}]
+steps:
+  - {name: press, increments: 2, prescribe: [{on: b.left, ux: 0, uy: 0}], forces: [{on: b.right, fx: -0.2}]}
+  - {name: modes, frequencies: 3}
+  - {name: buckle, buckling: 2, forces: [{on: b.right, fx: -1}]}
+output: {history: [{on: b.right, of: ux}, {on: b.left, of: rfx}]}
+"""
+# Equations across the block, a hard spring beside it, and layers that yield one after the other.
+TIED = """osculate: 1
+mesh:
+  generate:
+    low: {box: {x: [0, 2], y: [0, 1], z: [0, 1], elements: [4, 2, 2]}}
+    up: {box: {x: [0, 2], y: [0, 1], z: [1, 1.5], elements: [3, 3, 1]}}
+materials: {m: {elastoplastic: {E: 100, nu: 0.3, hardening: [[0, 1], [1, 6]]}}}
+sections: [{on: low, material: m, element: solid}, {on: up, material: m, element: solid}]
+contact: [{name: c, master: low.top, slave: up.bottom, tie: true, sampling: mortar}]
+steps:
+  - {name: press, increments: 3, prescribe: [{on: low.bottom, ux: 0, uy: 0, uz: 0}, {on: up.top, uz: -0.05}]}
+  - {name: shear, increments: 3, prescribe: [{on: up.top, ux: 0.08, uy: 0.02}]}
+output: {history: [{on: up.top, of: rfx}, {on: up.top, of: rfz}, {on: low.bottom, of: rfy}]}
+"""
+EXPLICIT = """osculate: 1
+mesh: {generate: {b: {box: {x: [0, 1], y: [0.01, 1.01], elements: [6, 6]}}}}
+materials: {m: {neo_hooke: {E: 100, nu: 0.3, density: 1}}}
+sections: [{on: b, material: m, element: plane_strain}]
+rigid: {floor: {polyline: {points: [[3, 0], [-2, 0]]}}}
+contact: [{name: c, master: floor, slave: b.bottom, normal: {penalty: 1000}, friction: {coulomb: {mu: 0.2}}}]
+initial_velocity: [{on: b, vx: 1, vy: -1}]
+steps:
+  - {name: fall, increments: 5, duration: 0.2, dynamics: {explicit: true}, prescribe: [{on: floor, ux: 0, uy: 0, rz: 0}]}
+output: {history: [{on: b.bottom, of: vy}, {on: c, of: normal_force}]}
+"""
+FRICTION = "friction: {coulomb: {mu: 0.3}}"
+SVK = "{st_venant_kirchhoff: {E: 100, nu: 0.3}}"
+LINEAR = "{linear_elastic: {E: 100, nu: 0.25}}"
+PLASTIC = "{elastoplastic: {E: 100, nu: 0.3, hardening: [[0, 1], [1, 11]]}}"
+
+
+def pair(more):
+    return "[{name: c, master: low.top, slave: up.bottom, %s, %s}]" % (FRICTION, more)
+
+
+def of(model, contact, material=SVK, more=""):
+    return model.replace("CONTACT", contact).replace("MATERIAL", material).replace("MORE", more)
+
+
+MODELS = {
+    "nodes with friction": of(PLANE, pair("sampling: nodes")),
+    "smoothed master": of(PLANE, pair("sampling: {gauss: 2}, smoothing: hermite")),
+    "multipliers at nodes": of(PLANE, pair("enforcement: lagrange_multiplier")),
+    "augmented at Gauss points": of(PLANE, pair("sampling: {gauss: 2}, enforcement: augmented_lagrange")),
+    "all with all": of(PLANE, "{all: {name: c, %s}}" % FRICTION),
+    "plastic": of(PLANE, pair("sampling: {lobatto: 3}"), PLASTIC),
+    "swung": of(PLANE, pair("sampling: mortar"), SVK.replace("}}", ", density: 0.01}}"),
+                "duration: 0.04, dynamics: {}, "),
+    "Gauss points in space": of(SPACE, pair("sampling: {gauss: 2}"), LINEAR),
+    "multipliers of mortar in space": of(SPACE, pair("sampling: mortar, enforcement: lagrange_multiplier"), LINEAR),
+    "edges": EDGES,
+    "ball": BALL,
+    "plate": PLATE,
+    "modes": MODES,
+    "tied and plastic": TIED,
+    "explicit": EXPLICIT,
+}
+# In the repository; without the folder of results.
+FILES = {
+    "bodies come and go": "verification/body_changes/parallel.yaml",
+    "bodies change their material": "verification/body_changes/series.yaml",
+    "pairs change": "verification/pair_changes/block.yaml",
+    "coupling": "verification/coupling/bar.yaml",
+    "bolts": "examples/bolted_joint/joint.inp",
+    "own surface": "examples/clip/clip.yaml",
+}
