@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <initializer_list>
 
+#include "osculate/api/agree.hpp"
 #include "osculate/core/error.hpp"
 #include "osculate/core/memory.hpp"
 #include "osculate/io/atomic_file.hpp"
@@ -100,6 +101,8 @@ int join(const std::function<int(const model::Together&)>& part) {
   } catch (const io::WriteError&) {
     ranks.finish();
     throw;
+  } catch (const api::OneAlone& error) {
+    end_all(ranks, error.what(), analysis_stopped);
   } catch (const std::bad_alloc& error) {
     end_all(ranks, core::out_of_memory_text(error), analysis_stopped);
   } catch (const std::exception& error) {

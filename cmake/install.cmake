@@ -22,6 +22,9 @@ if(OSCULATE_APP)
   install(FILES ${written}/_osculate DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT program OPTIONAL)
   install(FILES ${written}/osculate.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d
     COMPONENT program OPTIONAL)
+  if(OSCULATE_MPI)  # with what it needs a package of its own: the program's has no MPI
+    install(TARGETS osculate_mpi LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT mpi)
+  endif()
   if(OSCULATE_VERIFICATION)
     install(TARGETS osculate-verify RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT verification)
     install(DIRECTORY verification DESTINATION ${CMAKE_INSTALL_DATADIR}/osculate COMPONENT verification

@@ -87,7 +87,7 @@ materials: {m: {linear_elastic: {E: 1000, nu: 0.3, density: 1}}}
 sections: [{on: b, material: m, element: plane_strain}]
 steps:
   - {name: press, increments: 2, prescribe: [{on: b.left, ux: 0, uy: 0}], forces: [{on: b.right, fx: -0.2}]}
-  - {name: modes, frequencies: 3}
+  - {name: modes, modes: 3}
   - {name: buckle, buckling: 2, forces: [{on: b.right, fx: -1}]}
 output: {history: [{on: b.right, of: ux}, {on: b.left, of: rfx}]}
 """
@@ -97,7 +97,7 @@ mesh:
   generate:
     low: {box: {x: [0, 2], y: [0, 1], z: [0, 1], elements: [4, 2, 2]}}
     up: {box: {x: [0, 2], y: [0, 1], z: [1, 1.5], elements: [3, 3, 1]}}
-materials: {m: {elastoplastic: {E: 100, nu: 0.3, hardening: [[0, 1], [1, 6]]}}}
+materials: {m: {elastoplastic: {E: 100, nu: 0.3, hardening: [[1, 0], [6, 1]]}}}
 sections: [{on: low, material: m, element: solid}, {on: up, material: m, element: solid}]
 contact: [{name: c, master: low.top, slave: up.bottom, tie: true, sampling: mortar}]
 steps:
@@ -113,13 +113,13 @@ rigid: {floor: {polyline: {points: [[3, 0], [-2, 0]]}}}
 contact: [{name: c, master: floor, slave: b.bottom, normal: {penalty: 1000}, friction: {coulomb: {mu: 0.2}}}]
 initial_velocity: [{on: b, vx: 1, vy: -1}]
 steps:
-  - {name: fall, increments: 5, duration: 0.2, dynamics: {explicit: true}, prescribe: [{on: floor, ux: 0, uy: 0, rz: 0}]}
+  - {name: fall, increments: 5, duration: 0.2, dynamics: {scheme: central_differences}, prescribe: [{on: floor, ux: 0, uy: 0, rz: 0}]}
 output: {history: [{on: b.bottom, of: vy}, {on: c, of: normal_force}]}
 """
 FRICTION = "friction: {coulomb: {mu: 0.3}}"
 SVK = "{st_venant_kirchhoff: {E: 100, nu: 0.3}}"
 LINEAR = "{linear_elastic: {E: 100, nu: 0.25}}"
-PLASTIC = "{elastoplastic: {E: 100, nu: 0.3, hardening: [[0, 1], [1, 11]]}}"
+PLASTIC = "{elastoplastic: {E: 100, nu: 0.3, hardening: [[1, 0], [11, 1]]}}"
 
 
 def pair(more):

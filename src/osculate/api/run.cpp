@@ -158,6 +158,13 @@ void introduce_restart(Recorder<Dim>& recorder, const result::Checkpoint<Dim>& f
                            from.point.progress.time));
 }
 
+/// Memory that the linear solver is short of is missed by all processes, with a reason of its own.
+template <int Dim>
+bool is_short_of_memory_alone(const model::BasicAnalysisResult<Dim>& result) {
+  return result.outcome == solve::Outcome::out_of_memory &&
+         result.message == core::out_of_memory_text(std::bad_alloc{});
+}
+
 /// What processes beside the first one do: the same analysis, and no files.
 template <int Dim>
 RunOutcome follow(const RunOptions& options, const deck::BasicBuilt<Dim>& built,
@@ -167,9 +174,42 @@ RunOutcome follow(const RunOptions& options, const deck::BasicBuilt<Dim>& built,
   const model::BasicAnalysisResult<Dim> result =
       model::run(built.model, built.options, answering_alike(built.options.ranks, observer),
                  from ? &from->point : nullptr);
+  if (is_short_of_memory_alone(result)) throw OneAlone(result.message);
   RunOutcome outcome;
   const bool done = result.outcome == solve::Outcome::converged;
   outcome.status = done ? RunStatus::done : RunStatus::stopped;
+  return outcome;
+}
+
+/// What the process does that writes.
+template <int Dim>
+RunOutcome lead(const RunOptions& options, Recorder<Dim>& recorder,
+                const deck::BasicBuilt<Dim>& built, const result::Checkpoint<Dim>* from,
+                double seconds_input) {
+  const core::Ranks* const ranks = options.together.ranks;
+  model::BasicAnalysisObserver<Dim> observer = observe(recorder);
+  if (from)
+    observer.resumed = [&](const auto& system, const auto& state) {
+      recorder.resume(*from, system, state);
+    };
+  model::BasicAnalysisResult<Dim> result;
+  try {
+    result = model::run(built.model, built.options, answering_alike(ranks, observer),
+                        from ? &from->point : nullptr);
+  } catch (const std::bad_alloc& error) {
+    if (!recorder.history) throw;  // of the earlier run nothing has been touched
+    result.outcome = solve::Outcome::out_of_memory;
+    result.message = core::out_of_memory_text(error);
+  } catch (const io::WriteError& error) {
+    if (!ranks) throw;
+    throw OneAlone(error.what());
+  }
+  if (result.failure) {
+    recorder.fields.write_last_iterate(result.last_iterate, *result.failure);
+    recorder.report.add_failure(result.last_iterate, *result.failure);
+  }
+  RunOutcome outcome = finish(recorder, result, seconds_input);
+  if (ranks && is_short_of_memory_alone(result)) throw OneAlone(result.message);
   return outcome;
 }
 
@@ -192,37 +232,22 @@ RunOutcome run_built(const RunOptions& options, const deck::Description& descrip
     if (options.restart)
       from = result::read_checkpoint<Dim>(folder, id, built.model, options.model);
   });
+  std::optional<Recorder<Dim>> recorder;
+  double seconds_input = 0;
   agree(ranks, [&] {
-    if (leads && !from) result::claim_folder(folder, owner);
-    if (leads) result::open_folder(folder, options.restart);
+    if (!leads) return;
+    if (!from) result::claim_folder(folder, owner);
+    result::open_folder(folder, options.restart);
+    seconds_input = seconds_since(start);
+    const Budget budget{options.max_iterations, options.max_minutes, start};
+    recorder.emplace(options, description, built, owner, folder, budget);
+    if (from)
+      introduce_restart(*recorder, *from);
+    else
+      introduce(*recorder, id);
   });
-  if (!leads) return follow(options, built, from ? &*from : nullptr);
-  const double seconds_input = seconds_since(start);
-  Recorder<Dim> recorder(options, description, built, owner, folder,
-                         {options.max_iterations, options.max_minutes, start});
-  if (from)
-    introduce_restart(recorder, *from);
-  else
-    introduce(recorder, id);
-  model::BasicAnalysisObserver<Dim> observer = observe(recorder);
-  if (from)
-    observer.resumed = [&](const auto& system, const auto& state) {
-      recorder.resume(*from, system, state);
-    };
-  model::BasicAnalysisResult<Dim> result;
-  try {
-    result = model::run(built.model, built.options, answering_alike(ranks, observer),
-                        from ? &from->point : nullptr);
-  } catch (const std::bad_alloc& error) {
-    if (!recorder.history) throw;  // of the earlier run nothing has been touched
-    result.outcome = solve::Outcome::out_of_memory;
-    result.message = core::out_of_memory_text(error);
-  }
-  if (result.failure) {
-    recorder.fields.write_last_iterate(result.last_iterate, *result.failure);
-    recorder.report.add_failure(result.last_iterate, *result.failure);
-  }
-  return finish(recorder, result, seconds_input);
+  const result::Checkpoint<Dim>* const at = from ? &*from : nullptr;
+  return leads ? lead(options, *recorder, built, at, seconds_input) : follow(options, built, at);
 }
 
 /// Of a deck with `*NO ANALYSIS`: what was understood, and nothing else.

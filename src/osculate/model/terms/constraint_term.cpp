@@ -182,32 +182,77 @@ void ConstraintTerm<Dim>::add(std::size_t pair, Assembly<Dim>& to) const {
   }
 }
 
+namespace {
+
+/// Entries of the rows of multipliers among the displacements, one row behind the other, with those
+/// across from them and the stiffness of their columns: of all processes, on each.
+struct MultiplierRows {
+  std::vector<std::size_t> start{0};  ///< of each row, and the end
+  std::vector<double> along, across, stiffness;
+};
+
+bool is_here(const la::SparseMatrix& k, Index row) {  // the diagonal is in every pattern
+  return k.row_start[static_cast<std::size_t>(row)] <
+         k.row_start[static_cast<std::size_t>(row) + 1];
+}
+
+double value_at(const la::SparseMatrix& k, Index row, Index column) {
+  const auto from = k.column.begin() + k.row_start[static_cast<std::size_t>(row)];
+  const auto to = k.column.begin() + k.row_start[static_cast<std::size_t>(row) + 1];
+  const auto at = std::lower_bound(from, to, column);
+  return at != to && *at == column ? k.value[static_cast<std::size_t>(at - k.column.begin())] : 0.0;
+}
+
+MultiplierRows multiplier_rows(const la::SparseMatrix& k, Index begin, Index end) {
+  const auto together = [&k](std::vector<double>& values) {
+    if (k.ranks) k.ranks->sum(values);
+  };
+  const auto each = [&](const auto& visit) {  // visit(row, column, value) for what is here
+    for (Index u = begin; u < end; ++u)
+      for (Index e = k.row_start[static_cast<std::size_t>(u)];
+           e < k.row_start[static_cast<std::size_t>(u) + 1]; ++e)
+        if (const Index j = k.column[static_cast<std::size_t>(e)]; j < begin)
+          visit(static_cast<std::size_t>(u - begin), j, k.value[static_cast<std::size_t>(e)]);
+  };
+  std::vector<double> length(static_cast<std::size_t>(end - begin), 0.0);
+  each([&](std::size_t row, Index, double) { length[row] += 1; });
+  together(length);
+  MultiplierRows out;
+  for (const double l : length) out.start.push_back(out.start.back() + static_cast<std::size_t>(l));
+  std::vector<double> column(out.start.back(), core::Ranks::nothing);
+  out.along = out.across = out.stiffness = column;
+  std::vector<std::size_t> next(out.start.begin(), out.start.end() - 1);
+  each([&](std::size_t row, Index j, double value) {
+    column[next[row]] = j;
+    out.along[next[row]++] = value;
+  });
+  together(column);
+  together(out.along);
+  for (std::size_t row = 0; row < length.size(); ++row)
+    for (std::size_t e = out.start[row]; e < out.start[row + 1]; ++e) {
+      const auto j = static_cast<Index>(column[e]);
+      if (!is_here(k, j)) continue;
+      out.across[e] = value_at(k, j, begin + static_cast<Index>(row));
+      out.stiffness[e] = std::abs(value_at(k, j, j));
+    }
+  together(out.across);
+  together(out.stiffness);
+  return out;
+}
+
+}  // namespace
+
 template <int Dim>
 void ConstraintTerm<Dim>::soften(la::MatrixBuilder& builder) const {
   constexpr double share = 1e-8;
-  const la::SparseMatrix& k = builder.finish();
-  const auto value_at = [&](Index row, Index column) {
-    const auto from = k.column.begin() + k.row_start[static_cast<std::size_t>(row)];
-    const auto to = k.column.begin() + k.row_start[static_cast<std::size_t>(row) + 1];
-    const auto at = std::lower_bound(from, to, column);
-    return at != to && *at == column ? k.value[static_cast<std::size_t>(at - k.column.begin())]
-                                     : 0.0;
-  };
-  std::vector<double> compliance(static_cast<std::size_t>(count()));
-  for (Index u = begin; u < end; ++u)
-    for (Index at = k.row_start[static_cast<std::size_t>(u)];
-         at < k.row_start[static_cast<std::size_t>(u) + 1]; ++at) {
-      const Index j = k.column[static_cast<std::size_t>(at)];
-      const double stiffness = j < begin ? std::abs(value_at(j, j)) : 0.0;
-      if (stiffness > 0)
-        compliance[static_cast<std::size_t>(u - begin)] +=
-            k.value[static_cast<std::size_t>(at)] * value_at(j, u) / stiffness;
-    }
-  for (std::size_t i = 0; i < compliance.size(); ++i)
-    if (compliance[i] != 0.0) {
-      const Index u = begin + static_cast<Index>(i);
-      builder.add(u, u, -share * compliance[i]);
-    }
+  const MultiplierRows rows = multiplier_rows(builder.finish(), begin, end);
+  for (std::size_t i = 0; i + 1 < rows.start.size(); ++i) {
+    double compliance = 0;
+    for (std::size_t e = rows.start[i]; e < rows.start[i + 1]; ++e)
+      if (rows.stiffness[e] > 0) compliance += rows.along[e] * rows.across[e] / rows.stiffness[e];
+    const Index u = begin + static_cast<Index>(i);
+    if (compliance != 0.0) builder.add(u, u, -share * compliance);
+  }
 }
 
 template struct ConstraintTerm<2>;

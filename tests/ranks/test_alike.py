@@ -1,0 +1,49 @@
+"""Several processes do what one does: the same iterations, states of contact points and histories."""
+import os
+from concurrent.futures import ThreadPoolExecutor
+
+from models import FILES, MODELS
+from ranks_case import SOURCE, RanksCase, main
+
+
+class Alike(RanksCase):
+    tolerance = 1e-10  # seen: 1e-11 in the augmented one, whose iterations end where a tolerance is met; 4e-13 elsewhere
+
+    def compare(self, number, name, model):
+        """Three processes and one, and in turn two or eight."""
+        of = {n: f"{number}.{n}" for n in (1, 3, (2, 8)[number % 2])}
+        for processes, out in of.items():
+            self.run_program(processes, "run", model, "-o", out)
+            self.assertEqual(self.counts(out), self.counts(of[1]), f"{name}, {processes} processes")
+            self.assertEqual(self.summary(out)["message"], self.summary(of[1])["message"])
+        several = [out for n, out in of.items() if n > 1]
+        for out, reference in ((several[0], of[1]), (several[1], of[1]), (several[0], several[1])):
+            worst, column = self.difference(out, reference)
+            self.assertLess(worst, self.tolerance, f"{name}: {column} of {out} and {reference}")
+
+    def test_models(self):
+        jobs = []
+        for number, (name, text) in enumerate(MODELS.items()):
+            self.write(text, f"model{number}.yaml")
+            jobs.append((number, name, f"model{number}.yaml"))
+        jobs += [(len(MODELS) + i, name, os.path.join(SOURCE, file)) for i, (name, file) in enumerate(FILES.items())]
+        with ThreadPoolExecutor(2) as pool:
+            for job, done in [(job, pool.submit(self.compare, *job)) for job in jobs]:
+                with self.subTest(model=job[1]):
+                    done.result()
+
+    def test_modes(self):
+        """Vibrations and buckling after increments that were shared: each process looks for all."""
+        self.write(MODELS["modes"])
+        for processes in (1, 2):
+            self.run_program(processes, "run", "model.yaml", "-o", str(processes))
+        modes = [[step[name] for step in self.summary(out)["steps"] for name in ("frequencies", "factors") if step.get(name)]
+                 for out in ("1", "2")]
+        self.assertEqual([len(m) for m in modes[0]], [3, 2])
+        for one, two in zip(*modes):
+            for a, b in zip(one, two):
+                self.assertLess(abs(a / b - 1), 1e-8)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,79 @@
+"""How several processes end: with one message, and the exit code of one."""
+import os
+import shutil
+import subprocess
+import unittest
+
+import ranks_case
+from models import PLANE, of, pair
+from ranks_case import PROGRAM, RanksCase, main
+
+MODEL = of(PLANE, pair("sampling: nodes"))
+
+
+class Ends(RanksCase):
+    limit = 60
+
+    def test_bad_input(self):
+        self.write(MODEL.replace("E: 100", "E: -100"), "bad.yaml")
+        self.expect_message(self.run_program(3, "run", "bad.yaml", code=2), "bad.yaml:6: .*must be > 0, got -100")
+        self.expect_message(self.run_program(3, "run", "none.yaml", code=2), "none.yaml: cannot be read")
+        self.write(MODEL)
+        self.expect_message(self.run_program(2, "run", "model.yaml", "--restart", code=2), "checkpoint")
+        self.expect_message(self.run_program(2, "run", "model.yaml", "--until", "never", code=2), "never")
+
+    def test_other_commands_are_for_one(self):
+        self.write(MODEL)
+        for command in ("check", "tangent"):
+            self.expect_message(self.run_program(2, command, "model.yaml", code=2),
+                                f"'osculate {command}' is for one process: start it without mpirun")
+
+    def test_without_the_library(self):
+        self.write(MODEL)
+        os.mkdir(self.path("bin"))
+        shutil.copy(PROGRAM, self.path("bin", "osculate"))
+        ranks_case.PROGRAM = self.path("bin", "osculate")
+        try:
+            self.expect_message(self.run_program(2, "run", "model.yaml", code=2), "'-D OSCULATE_MPI=ON'")
+        finally:
+            ranks_case.PROGRAM = PROGRAM
+
+    def test_a_budget(self):
+        self.write(MODEL)
+        for processes in (1, 2):
+            self.run_program(processes, "run", "model.yaml", "-o", str(processes), "--max-iterations", "12", code=3)
+        self.assertEqual(self.counts("2"), self.counts("1"))
+        self.assertEqual(self.summary("2")["message"], self.summary("1")["message"])
+
+    def test_no_equilibrium(self):
+        """The reason is looked for by each process: of a block that nothing holds, and of cells that fold."""
+        loose = MODEL.replace(", {on: up.top, ux: 0, uy: -0.03}]", "], forces: [{on: up.top, fx: 10}]")
+        folded = MODEL.replace("uy: -0.03}", "uy: -7}")
+        for text in (loose.split("  - {name: drag")[0] + "output: {}\n", folded):
+            self.write(text)
+            done = {n: self.run_program(n, "run", "model.yaml", "-o", str(n), code=3) for n in (1, 3)}
+            self.assertEqual(self.summary("3")["message"].split(" at ")[0], self.summary("1")["message"].split(" at ")[0],
+                             done[3].stderr)
+            for n in (1, 3):
+                shutil.rmtree(self.path(str(n)))
+
+    @unittest.skipIf(os.geteuid() != 0, "only root mounts")
+    def test_disk_full(self):
+        """At the beginning, when the first files are opened, and between increments."""
+        self.write(MODEL.replace("increments: 4", "increments: 40"))
+        os.mkdir(self.path("small"))
+        for kilobytes in (4, 16, 40, 120):
+            with self.subTest(kilobytes=kilobytes):
+                mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={kilobytes}k", "tmpfs", self.path("small")],
+                                         capture_output=True, text=True)
+                if mounted.returncode != 0:
+                    self.skipTest(mounted.stderr)
+                try:
+                    done = self.run_program(3, "run", "model.yaml", "-o", "small/results", code=3)
+                finally:
+                    subprocess.run(["umount", self.path("small")], check=True)
+                self.assertEqual((done.stdout + done.stderr).count("No space left on device"), 1, done.stderr)
+
+
+if __name__ == "__main__":
+    main()
