@@ -99,7 +99,7 @@ mesh:
     up: {box: {x: [0, 2], y: [0, 1], z: [1, 1.5], elements: [3, 3, 1]}}
 materials: {m: {elastoplastic: {E: 100, nu: 0.3, hardening: [[1, 0], [6, 1]]}}}
 sections: [{on: low, material: m, element: solid}, {on: up, material: m, element: solid}]
-contact: [{name: c, master: low.top, slave: up.bottom, tie: true, sampling: mortar}]
+ties: [{slave: up.bottom, master: low.top}]
 steps:
   - {name: press, increments: 3, prescribe: [{on: low.bottom, ux: 0, uy: 0, uz: 0}, {on: up.top, uz: -0.05}]}
   - {name: shear, increments: 3, prescribe: [{on: up.top, ux: 0.08, uy: 0.02}]}

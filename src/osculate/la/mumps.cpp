@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <exception>
 #include <limits>
 
 #include "osculate/core/memory.hpp"
@@ -83,7 +84,8 @@ struct Mumps::Impl {
   }
   [[nodiscard]] bool agreed(bool holds) const { return ranks ? ranks->all(holds) : holds; }
   void close() {
-    if (open) call(end);
+    // While an error is under way the others may be elsewhere.
+    if (open && !(ranks && std::uncaught_exceptions() > 0)) call(end);
     open = analysed = factored = false;
   }
   [[nodiscard]] bool kept(Index i, Index j) const {
@@ -306,8 +308,8 @@ FactorReport Mumps::Impl::prepare(const SparseMatrix& k, std::uint64_t wanted_ve
   FactorReport report = outcome();
   analysed = report.status == SolveStatus::ok;
   // Where there is less in the whole machine, the system would end the program without a word.
-  if (const double all = core::memory_in_all(); all > 0 && needed_bytes() > all)
-    throw NotEnoughMemory(memory_text());
+  const double all = core::memory_in_all();
+  if (!agreed(all <= 0 || needed_bytes() <= all)) throw NotEnoughMemory(memory_text());
   // What was freed lies between what was kept, in pieces too small for the factors.
   constexpr double large = 16e6;
   if (needed_bytes() > large) (void)malloc_trim(0);
