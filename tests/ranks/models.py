@@ -130,6 +130,10 @@ def of(model, contact, material=SVK, more=""):
     return model.replace("CONTACT", contact).replace("MATERIAL", material).replace("MORE", more)
 
 
+# What an increment has added to the matrix, a step that every process takes by itself, and increments again.
+BETWEEN = of(PLANE, pair("sampling: nodes"), SVK.replace("}}", ", density: 0.01}}")).replace(
+    "  - {name: drag", "  - {name: look, modes: 2}\n  - {name: drag")
+
 MODELS = {
     "nodes with friction": of(PLANE, pair("sampling: nodes")),
     "smoothed master": of(PLANE, pair("sampling: {gauss: 2}, smoothing: hermite")),
@@ -142,6 +146,7 @@ MODELS = {
     "Gauss points in space": of(SPACE, pair("sampling: {gauss: 2}"), LINEAR),
     "multipliers of mortar in space": of(SPACE, pair("sampling: mortar, enforcement: lagrange_multiplier"), LINEAR),
     "edges": EDGES,
+    "modes between": BETWEEN,
     "ball": BALL,
     "plate": PLATE,
     "modes": MODES,

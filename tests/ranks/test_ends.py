@@ -46,13 +46,6 @@ class Ends(RanksCase):
         self.assertEqual(self.counts("2"), self.counts("1"))
         self.assertEqual(self.summary("2")["message"], self.summary("1")["message"])
 
-    def test_no_equilibrium(self):
-        """The reason is looked for by each process, when cells fold however small the increment is."""
-        self.write(MODEL.replace("uy: -0.03}", "uy: -7}").replace("press, increments: 2", "press, increments: 1"))
-        for processes in (1, 3):
-            self.run_program(processes, "run", "model.yaml", "-o", str(processes), code=3)
-        self.assertEqual(self.summary("3")["message"], self.summary("1")["message"])
-
     @unittest.skipIf(os.geteuid() != 0, "only root mounts")
     def test_disk_full(self):
         """At the beginning, when the first files are opened, and between increments."""

@@ -36,8 +36,8 @@ class Restart(RanksCase):
                     done = self.run_program(processes, "run", "model.yaml", "-o", out, "--restart")
                     self.assertIn("restart after increment", done.stdout + done.stderr)
                     self.expect_the_same(out, "whole")
-                for out in ("whole", "two", "by1", "by3"):
-                    shutil.rmtree(self.path(out))
+            for out in ("whole", "two", "by1", "by3"):
+                shutil.rmtree(self.path(out), ignore_errors=True)
 
     def kill_one(self, processes, rank, after, delay):
         """While such processes run: one of them, so many increments and seconds after the beginning."""

@@ -281,9 +281,11 @@ void MatrixBuilder::merge() {
 void MatrixBuilder::grow_by(std::span<const MatrixPlace> places) {
   merge();
   for (const Place& place : places) {
-    if (!here(place.row) || find(place.row, place.column) != nullptr) continue;
-    pending_.push_back(place);
-    grown_.push_back(place);
+    if (here(place.row)) {
+      if (find(place.row, place.column) != nullptr) continue;
+      pending_.push_back(place);
+    }
+    grown_.push_back(place);  // those of other processes, too: checkpoints add to what they had
   }
   merge();
 }

@@ -80,14 +80,17 @@ void BasicSystem<Dim>::Impl::share(bool on) {
   if (!ranks || on == (bulk.ranks != nullptr)) return;
   bulk.ranks = on ? ranks : nullptr;
   pattern_reserved = false;
-  if (!on) {
+  builder.finish();
+  const std::vector<la::MatrixPlace> grown = builder.grown();  // a checkpoint may know them
+  if (on) {
+    std::vector<int> owner = node_owners(model, ranks->count());
+    ranks->spread(owner, 0);
+    bulk.shares = shares_of(model, dofs, constraints.count(), owner, ranks->rank(), ranks->count());
+    builder = la::MatrixBuilder(constraints.end, ranks, bulk.shares.rows);
+  } else {
     builder = la::MatrixBuilder(constraints.end);
-    return;
   }
-  std::vector<int> owner = node_owners(model, ranks->count());
-  ranks->spread(owner, 0);
-  bulk.shares = shares_of(model, dofs, constraints.count(), owner, ranks->rank(), ranks->count());
-  builder = la::MatrixBuilder(constraints.end, ranks, bulk.shares.rows);
+  builder.grow_by(grown);
 }
 
 template <int Dim>

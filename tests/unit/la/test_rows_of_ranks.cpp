@@ -104,18 +104,34 @@ TEST(RowsOfRanks, places_that_have_grown_are_those_of_the_own_rows) {
   for (int rank = 0; rank < 3; ++rank) {
     MatrixBuilder part(n, nullptr, rows_of(owner, rank));
     build(part, n, 5);
-    std::size_t at = 0;
-    for (const MatrixPlace& place : whole.grown()) {
-      if (owner[static_cast<std::size_t>(place.row)] != rank) continue;
-      ASSERT_LT(at, part.grown().size());
-      EXPECT_EQ(part.grown()[at].row, place.row);
-      EXPECT_EQ(part.grown()[at++].column, place.column);
-    }
-    EXPECT_EQ(at, part.grown().size());
-    seen += at;
+    const auto own = [&](const std::vector<MatrixPlace>& places) {
+      std::vector<std::pair<Index, Index>> out;
+      for (const MatrixPlace& place : places)
+        if (owner[static_cast<std::size_t>(place.row)] == rank)
+          out.emplace_back(place.row, place.column);
+      return out;
+    };
+    EXPECT_EQ(own(part.grown()), own(whole.grown()));
+    seen += own(part.grown()).size();
   }
   EXPECT_EQ(seen, whole.grown().size());
   EXPECT_GT(seen, 10U);
+}
+
+/// A checkpoint adds to the places that it had, whose rows may be those of others now.
+TEST(RowsOfRanks, places_that_are_given_stay_in_the_list) {
+  const std::array<MatrixPlace, 3> given{{{3, 0}, {1, 2}, {0, 3}}};
+  MatrixBuilder part(4, nullptr, {true, false, false, true});
+  part.grow_by(given);
+  part.add(0, 1, 1.0);
+  const SparseMatrix& k = part.finish();
+  EXPECT_EQ(k.row_start, (std::vector<Index>{0, 3, 3, 3, 5}));
+  EXPECT_EQ(k.column, (std::vector<Index>{0, 1, 3, 0, 3}));
+  ASSERT_EQ(part.grown().size(), 4U);
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    EXPECT_EQ(part.grown()[i].row, given[i].row);
+    EXPECT_EQ(part.grown()[i].column, given[i].column);
+  }
 }
 
 TEST(RowsOfRanks, products_have_the_bits_of_one) {
