@@ -34,7 +34,7 @@ class Alike(RanksCase):
 
     def modes(self, out):
         steps = self.summary(out)["steps"]
-        return [[mode["omega_squared"] for mode in steps[1]["modes"]], steps[2]["buckling"]["factors"]]
+        return [[mode["omega_squared"] for mode in steps[1]["modes"]["found"]], steps[2]["buckling"]["factors"]]
 
     def test_modes(self):
         """Vibrations and buckling after increments that were shared: each process looks for all."""
