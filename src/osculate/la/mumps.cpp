@@ -1,3 +1,4 @@
+// size: one library by one and by several processes; what differs is a line here and there.
 #include "osculate/la/mumps.hpp"
 
 #include <dmumps_c.h>
