@@ -221,7 +221,41 @@ void BasicSystem<Dim>::Impl::assemble(const State& committed, const Trial& trial
   const Stopwatch watch;
   const double elsewhere = bulk.seconds + contact.seconds;
   assemble_terms(committed, trial, fraction, with_tangent, pass, out);
+  if (bulk.ranks && out.ok) spread(out);
   assembly_seconds += watch.seconds() - (bulk.seconds + contact.seconds - elsewhere);
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::spread(solve::Evaluation& out) const {
+  const core::Ranks& all = *bulk.ranks;
+  solve::StateCounts& counts = out.counts;
+  std::array<double, 4> measures{out.force_scale, out.round_off, out.round_off_in_time,
+                                 counts.friction_work};
+  constexpr unsigned half = 32;
+  std::array<int, 10> marks{counts.open,
+                            counts.stick,
+                            counts.slipping,
+                            counts.closed,
+                            static_cast<int>(counts.signature),
+                            static_cast<int>(counts.signature >> half),
+                            static_cast<int>(out.loaded),
+                            static_cast<int>(out.led),
+                            static_cast<int>(out.saddle),
+                            static_cast<int>(out.branch_residual.size())};
+  all.spread(measures, 0);
+  all.spread(marks, 0);
+  out.force_scale = measures[0];
+  out.round_off = measures[1];
+  out.round_off_in_time = measures[2];
+  counts = {marks[0], marks[1], marks[2], marks[3], 0, measures[3]};
+  counts.signature = static_cast<std::uint32_t>(marks[4]) |
+                     std::uint64_t{static_cast<std::uint32_t>(marks[5])} << half;
+  out.loaded = marks[6] != 0;
+  out.led = marks[7] != 0;
+  out.saddle = marks[8] != 0;
+  out.branch_residual.conservativeResize(marks[9]);
+  all.spread({out.residual.data(), static_cast<std::size_t>(out.residual.size())}, 0);
+  all.spread({out.branch_residual.data(), static_cast<std::size_t>(marks[9])}, 0);
 }
 
 /// A correction by a tangent without digits may leave forces that are small beside those of the

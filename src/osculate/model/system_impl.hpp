@@ -122,6 +122,8 @@ struct BasicSystem<Dim>::Impl {
   void add_loads(const State& now, double fraction, bool with_tangent, Assembly<Dim>& to);
   void add_turning(const State& now, std::span<const Vec<Dim>> x, bool with_tangent,
                    Assembly<Dim>& to);
+  /// What the first process has found counts for all: last bits may be the heap's.
+  void spread(solve::Evaluation& out) const;
   /// Residual and its measures, of the last evaluation.
   void report(std::span<const Vec<Dim>> x, bool predict, solve::Evaluation& out) const;
 
