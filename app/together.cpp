@@ -26,6 +26,7 @@ int number_in(std::initializer_list<const char*> names, int otherwise) {
 
 /// As Open MPI, MPICH (hydra) and Slurm (srun --mpi=...) tell those that they start.
 int processes_started() {
+  if (number_in({"OSCULATE_ALONE"}, 0) != 0) return 1;
   const bool by_slurm = std::getenv("PMIX_RANK") || std::getenv("PMI_RANK");
   const int by_mpirun = number_in({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}, 1);
   return by_slurm && by_mpirun <= 1 ? number_in({"SLURM_STEP_NUM_TASKS"}, 1) : by_mpirun;
@@ -53,7 +54,8 @@ la::RanksLibrary begin(int processes) {
   if (!std::filesystem::exists(path))
     throw core::InputError(
         {}, fmt::format("started as {} processes, but this build is for one: build it with "
-                        "'-D OSCULATE_MPI=ON', or start it without mpirun",
+                        "'-D OSCULATE_MPI=ON', or start it without mpirun (OSCULATE_ALONE=1 in the "
+                        "environment: each runs by itself)",
                         processes));
   // Open MPI's parts look for its symbols among all that are loaded, and it does not bear
   // unloading.

@@ -128,6 +128,9 @@ nlohmann::json run_case(const Case& c, const VerifyOptions& options, const std::
   try {
     result = c.run({folder + "/" + c.name, {options.threads, options.together}});
   } catch (const std::exception& error) {
+    const bool of_all = dynamic_cast<const core::InputError*>(&error) ||
+                        dynamic_cast<const la::NotEnoughMemory*>(&error);
+    if (options.together.ranks && !of_all) throw;
     result.rows.push_back(failure(fmt::format("case ended with: {}", error.what())));
   }
   if (result.rows.empty()) result.rows.push_back(failure("the case gave no row at all"));

@@ -143,6 +143,10 @@ MODELS = {
     "plastic": of(PLANE, pair("sampling: {lobatto: 3}"), PLASTIC),
     "swung": of(PLANE, pair("sampling: mortar"), SVK.replace("}}", ", density: 0.01}}"),
                 "duration: 0.04, dynamics: {}, "),
+    "swung and plastic": of(PLANE, pair("sampling: nodes"), PLASTIC.replace("}}", ", density: 0.01}}"),
+                            "duration: 0.04, dynamics: {}, "),
+    "by multigrid": of(SPACE, pair("sampling: nodes"), LINEAR).replace("[5, 3, 1]", "[12, 8, 4]").replace(
+        "[3, 3, 2]", "[6, 6, 5]").replace("output:", "solver: {linear: multigrid}\noutput:"),
     "Gauss points in space": of(SPACE, pair("sampling: {gauss: 2}"), LINEAR),
     "multipliers of mortar in space": of(SPACE, pair("sampling: mortar, enforcement: lagrange_multiplier"), LINEAR),
     "edges": EDGES,

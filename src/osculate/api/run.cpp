@@ -171,10 +171,14 @@ RunOutcome follow(const RunOptions& options, const deck::BasicBuilt<Dim>& built,
                   const result::Checkpoint<Dim>* from) {
   model::BasicAnalysisObserver<Dim> observer;
   observer.interrupted = options.abandoned;
-  const model::BasicAnalysisResult<Dim> result =
-      model::run(built.model, built.options, answering_alike(built.options.ranks, observer),
-                 from ? &from->point : nullptr);
-  if (is_short_of_memory_alone(result)) throw OneAlone(result.message);
+  model::BasicAnalysisResult<Dim> result;
+  try {
+    result = model::run(built.model, built.options, answering_alike(built.options.ranks, observer),
+                        from ? &from->point : nullptr);
+  } catch (const la::NotEnoughMemory&) {  // of all
+    result.outcome = solve::Outcome::out_of_memory;
+  }
+  if (options.abandoned) (void)options.abandoned();  // what has interrupted is to interrupt no more
   RunOutcome outcome;
   const bool done = result.outcome == solve::Outcome::converged;
   outcome.status = done ? RunStatus::done : RunStatus::stopped;
@@ -222,12 +226,13 @@ RunOutcome run_built(const RunOptions& options, const deck::Description& descrip
   const core::Ranks* const ranks = options.together.ranks;
   model::share(options.together, built.options);
   const bool leads = !ranks || ranks->rank() == 0;
-  const std::string folder = result::choose_folder(options.model, options.folder);
   const result::RunIdentity id = result::identity(description, built.model.mesh, built.history);
+  std::string folder;
   std::optional<result::FolderLock> lock;
   std::optional<result::Checkpoint<Dim>> from;
   agree(ranks, [&] {
     check_until(options.until, built.model.steps);
+    folder = result::choose_folder(options.model, options.folder);
     if (leads) lock.emplace(folder, !options.restart);
     if (options.restart)
       from = result::read_checkpoint<Dim>(folder, id, built.model, options.model);

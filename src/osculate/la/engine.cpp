@@ -142,8 +142,8 @@ class MultigridEngine final : public Engine {
   bool build(CompressedRows&& a, Symmetry symmetry, const Places& places) {
     threads_ = places.threads;
     symmetry_ = symmetry;
-    bodies_ = std::make_unique<Multigrid>(threads_);
     if (!exact_.factor(a, places, symmetry, {})) return false;
+    bodies_ = std::make_unique<Multigrid>(threads_);
     Eigen::MatrixXd motions = rigid_motions(places, standing_alone(a));
     return bodies_->build(std::move(a), groups_of(places), std::move(motions));
   }

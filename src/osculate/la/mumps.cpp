@@ -153,6 +153,7 @@ bool mumps::open_library(DMUMPS_STRUC_C& id, int kind, const SharedMumps& shared
     return false;
   constexpr int by_process = 3;
   id.icntl[distribution] = by_process;
+  id.icntl[root_by_one] = 1;  // shared, it tells neither of negative pivots nor of small ones
   return true;
 }
 

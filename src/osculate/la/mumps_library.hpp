@@ -24,6 +24,7 @@ enum Control {
   transversal = 5,
   ordering = 6,
   scaling = 7,
+  root_by_one = 12,
   slack = 13,
   openmp_threads = 15,
   distribution = 17,

@@ -127,7 +127,7 @@ int affordable_iterations(const FactorReport& factors, const SparseMatrix& k) {
   constexpr double fewest = 10'000;
   if (!(factors.operations > 0)) return 0;
   const auto in_factors = static_cast<double>(factors.factor_entries);
-  const double in_matrix = la::entries(k);
+  const double in_matrix = entry_count(k);
   if (in_matrix < fewest) return 0;
   const double entries = in_factors + in_matrix;
   const double whole =

@@ -43,7 +43,7 @@ Eigen::VectorXd multiply_symmetric(const SparseMatrix& k, const Eigen::VectorXd&
   return y;
 }
 
-double entries(const SparseMatrix& k) {
+double entry_count(const SparseMatrix& k) {
   const auto here = static_cast<double>(k.value.size());
   return k.ranks ? k.ranks->sum(here) : here;
 }

@@ -23,7 +23,7 @@ struct SparseMatrix {
 };
 
 /// Entries on all processes.
-[[nodiscard]] double entries(const SparseMatrix& k);
+[[nodiscard]] double entry_count(const SparseMatrix& k);
 
 /// A place in a matrix.
 struct MatrixPlace {

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <iterator>
 
+#include "osculate/core/memory.hpp"
 #include "osculate/la/condensed.hpp"
 #include "osculate/la/iterative.hpp"
 #include "osculate/model/body_changes.hpp"
@@ -322,6 +323,11 @@ struct Analysis {
     solve::StepResult<BasicState<Dim>, BasicTrial<Dim>> done =
         solve::run_step(system, result.state, step.increments, increments, *solver, on_increment,
                         on_cutback, position);
+    // Memory that one process alone is short of: the others wait, and nothing may be ended
+    // together.
+    if (options.ranks && done.outcome == solve::Outcome::out_of_memory &&
+        done.reason == core::out_of_memory_text(std::bad_alloc{}))
+      throw std::bad_alloc{};
     result.state = done.state;
     result.last_iterate = done.state;
     result.outcome = done.outcome;
@@ -384,6 +390,7 @@ bool begin(Analysis<Dim>& a, const BasicResumePoint<Dim>* from) {
 void share(const Together& together, AnalysisOptions& options) {
   if (!together.ranks) return;
   options.ranks = together.ranks;
+  options.by_multigrid = together.ranks->any(options.by_multigrid);  // machines differ in memory
   options.linear_solver = [together, iterates = options.by_multigrid] {
     const la::MumpsOptions direct{.shared = together.solvers.mumps};
     std::unique_ptr<la::LinearSolver> solver;

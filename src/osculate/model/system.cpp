@@ -218,13 +218,13 @@ std::vector<ContactStates> BasicSystem<Dim>::recent_contact() const {
 
 template <int Dim>
 BasicState<Dim> BasicSystem<Dim>::commit(const Trial& trial, double fraction) const {
+  impl_->bulk.exchange_memory(impl_->last.memory);
   State state = trial.state;
   if (impl_->timed()) {
     state.rates = impl_->motion->new_rates(trial.state);
     impl_->motion->rebase(state);
   }
   state.fraction = fraction;
-  impl_->bulk.exchange_memory(impl_->last.memory);
   state.memory = impl_->last.memory;
   impl_->contact.look_far(trial.state, positions(trial.state), impl_->last);
   for (std::size_t p = 0; p < impl_->last.contact.size(); ++p) {

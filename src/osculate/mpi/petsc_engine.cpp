@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <exception>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -28,7 +29,9 @@ template <class Object, PetscErrorCode (*destroy)(Object*)>
 class Owned {
  public:
   Owned() = default;
-  ~Owned() { reset(); }
+  ~Owned() {  // together with the others, who know nothing of an error that is under way here
+    if (std::uncaught_exceptions() == 0) reset();
+  }
   Owned(const Owned&) = delete;
   Owned& operator=(const Owned&) = delete;
   void reset() {
@@ -281,7 +284,7 @@ bool PetscEngine::factor_exact() {
   check(KSPSetUp(exact_.get()));
   PCFailedReason failed = PC_NOERROR;
   check(PCGetFailedReason(pc, &failed));
-  return failed == PC_NOERROR;
+  return ranks_.all(failed == PC_NOERROR);
 }
 
 /// x = I_c K_cc^-1 I_c^T r
@@ -339,6 +342,7 @@ bool PetscEngine::prepare(const la::Places& places) {
 bool PetscEngine::build(const la::SparseMatrix& k, la::Symmetry symmetry,
                         const la::Places& places) {
   forget();
+  if (!k.ranks) return false;
   rows_ = rows_of(k, places);
   mark_ = mark_of(k, symmetry);
   make_matrix(k, symmetry);

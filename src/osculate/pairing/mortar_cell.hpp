@@ -19,6 +19,7 @@ using FacetVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, cell::max_facet_
 /// Formula    E_jk = int N_j N_k dA,  F_jl = int N_j N_l dA
 /// Shapes     `de`, `df`: row j + n k (column by column), n the slave facet's nodes;
 ///            column Dim c + i is the derivative by direction i of nodes[c]
+/// Memory     begins where packets of numbers begin, wherever the heap puts it (see Sheet)
 template <int Dim>
 struct alignas(EIGEN_MAX_STATIC_ALIGN_BYTES) MortarCell {
   Index master = -1;    ///< facet

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
+#include <vector>
+
 #include "mortar_checks.hpp"
 #include "mortar_sample.hpp"
 #include "osculate/pairing/mortar_basis.hpp"
@@ -94,6 +97,23 @@ TEST(MortarFacet, AreasOfQuadraticFacetsArePositive) {
     f.s = make_mortar3({.slave = type, .slave_cells = 1, .skew = 0.1});
     integrate(f);
     EXPECT_GT(f.facet.d.minCoeff(), 0);
+  }
+}
+
+// Eigen computes by packets from where these begin in memory.
+TEST(MortarFacet, LastBitsDoNotDependOnTheHeap) {
+  std::vector<std::unique_ptr<char[]>> between;
+  std::vector<std::unique_ptr<OneFacet<3>>> kept;
+  for (const std::size_t apart : {24, 40, 56, 40, 24, 72, 40, 56}) {
+    between.push_back(std::make_unique<char[]>(apart));
+    kept.push_back(std::make_unique<OneFacet<3>>());
+    OneFacet<3>& f = *kept.back();
+    f.s = make_mortar3({.slave = CellType::quad8, .slave_cells = 1, .skew = 0.1});
+    integrate(f);
+    EXPECT_EQ(f.facet.d, kept.front()->facet.d);
+    EXPECT_EQ(f.facet.s, kept.front()->facet.s);
+    EXPECT_EQ(f.facet.m.view(), kept.front()->facet.m.view());
+    EXPECT_EQ(f.facet.ds.view(), kept.front()->facet.ds.view());
   }
 }
 
