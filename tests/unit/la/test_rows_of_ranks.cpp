@@ -142,7 +142,7 @@ TEST(RowsOfRanks, products_have_the_bits_of_one) {
   const Eigen::VectorXd x = noise(n, 1, random);
   const Eigen::VectorXd expected = multiply(whole.finish(), x),
                         symmetric = multiply_symmetric(whole.finish(), x);
-  const double count_of_all = entries(whole.finish());
+  const double count_of_all = entry_count(whole.finish());
   for (const int count : {2, 3, 7}) {
     const std::vector<int> owner = random_owners(n, count, 4);
     testing::as_ranks(count, [&](const core::Ranks& ranks) {
@@ -152,7 +152,7 @@ TEST(RowsOfRanks, products_have_the_bits_of_one) {
       EXPECT_EQ(k.ranks, &ranks);
       EXPECT_EQ(multiply(k, x), expected);
       EXPECT_LT((multiply_symmetric(k, x) - symmetric).norm(), 1e-13 * symmetric.norm());
-      EXPECT_EQ(entries(k), count_of_all);
+      EXPECT_EQ(entry_count(k), count_of_all);
       EXPECT_EQ(relative_residual(k, x, expected), 0);
       EXPECT_GT(relative_residual(k, x, x), 0.1);
     });
