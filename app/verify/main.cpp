@@ -209,6 +209,8 @@ int run_program(int argc, char** argv) {
   }
   return join([&](const model::Together& together) {
     options.together = together;
+    if (together.ranks && together.ranks->rank() > 0)  // the first one writes
+      options.json = options.curves = options.plots = "";
     return verify(options);
   });
 }
