@@ -1,4 +1,3 @@
-// size: one library by one and by several processes; what differs is a line here and there.
 #include "osculate/la/mumps.hpp"
 
 #include <dmumps_c.h>
@@ -14,6 +13,7 @@
 #include "osculate/la/accuracy.hpp"
 #include "osculate/la/mumps_library.hpp"
 #include "osculate/la/ordering.hpp"
+#include "osculate/la/timed.hpp"
 
 namespace osculate::la {
 
@@ -36,19 +36,6 @@ FactorReport failure(SolveStatus status, std::string message, Index row = -1) {
   report.bad_row = row;
   return report;
 }
-
-/// Adds the life time of the value to a sum [s].
-class Spent {
- public:
-  explicit Spent(double& sum) : sum_(sum) {}
-  ~Spent() { sum_ += seconds_since(begun_); }
-  Spent(const Spent&) = delete;
-  Spent& operator=(const Spent&) = delete;
-
- private:
-  double& sum_;
-  std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
-};
 
 }  // namespace
 
@@ -163,41 +150,10 @@ bool Mumps::Impl::begin(int kind) {
   return open;
 }
 
-/// Puts together what the processes have of the pattern, on the first one.
-SparseMatrix whole_pattern(const SparseMatrix& k) {
-  const core::Ranks& ranks = *k.ranks;
-  const bool first = ranks.rank() == 0;
-  const auto processes = static_cast<std::size_t>(ranks.count());
-  std::vector<int> lengths, columns;
-  for (Index i = 0; i < k.n; ++i) lengths.push_back(k.row_start[at(i) + 1] - k.row_start[at(i)]);
-  std::vector<int> sizes(first ? processes : 0), starts(first ? processes * lengths.size() : 0);
-  const int size = static_cast<int>(k.column.size());
-  ranks.gather({&size, 1}, sizes);
-  ranks.gather(lengths, starts);
-  std::size_t all = 0;
-  for (const int s : sizes) all += static_cast<std::size_t>(s);
-  columns.resize(all);
-  ranks.gather(k.column, columns);
-  SparseMatrix whole;
-  if (!first) return whole;
-  whole.n = k.n;
-  whole.row_start = {0};
-  std::vector<std::size_t> next(processes, 0);
-  for (std::size_t p = 1; p < processes; ++p)
-    next[p] = next[p - 1] + static_cast<std::size_t>(sizes[p - 1]);
-  for (std::size_t i = 0; i < lengths.size(); ++i) {
-    for (std::size_t p = 0; p < processes; ++p)
-      for (int e = 0; e < starts[p * lengths.size() + i]; ++e)
-        whole.column.push_back(columns[next[p]++]);
-    whole.row_start.push_back(static_cast<Index>(whole.column.size()));
-  }
-  return whole;
-}
-
 void Mumps::Impl::order_unknowns(const SparseMatrix& k) {
   constexpr Index worth_dissecting = 1000;
   order.clear();
-  if (k.n >= worth_dissecting) order = nested_dissection(ranks ? whole_pattern(k) : k);
+  if (k.n >= worth_dissecting) order = nested_dissection(k);
   int given = order.empty() ? 0 : 1;
   if (ranks) ranks->spread({&given, 1}, 0);
   id.icntl[ordering] = given;  // minimum degree, or given
@@ -454,7 +410,7 @@ FactorReport Mumps::Impl::factor(const SparseMatrix& k, std::uint64_t wanted_ver
 
 FactorReport Mumps::factor(const SparseMatrix& k, std::uint64_t pattern_version,
                            Symmetry symmetry) {
-  const Spent spent(impl_->seconds);
+  const Timed timed(impl_->seconds);
   return impl_->factor(k, pattern_version, symmetry);
 }
 
@@ -484,7 +440,7 @@ SolveStatus Mumps::Impl::solve(Eigen::VectorXd& rhs) {
 SolveStatus Mumps::solve(Eigen::VectorXd& rhs) {
   Impl& s = *impl_;
   if (!s.factored || rhs.size() != s.n || !rhs.allFinite()) return SolveStatus::failed;
-  const Spent spent(s.seconds);
+  const Timed timed(s.seconds);
   return s.solve(rhs);
 }
 
@@ -492,7 +448,7 @@ SolveStatus Mumps::solve_once(Eigen::VectorXd& rhs) {
   Impl& s = *impl_;
   if (!s.factored || rhs.size() != s.n || !rhs.allFinite()) return SolveStatus::failed;
   if (s.n == 0) return SolveStatus::ok;
-  const Spent spent(s.seconds);
+  const Timed timed(s.seconds);
   const LibraryCall guard(s.options.blas_threads);
   const SolveStatus status = s.substitute(rhs.data(), 1);
   return status != SolveStatus::ok || rhs.allFinite() ? status : SolveStatus::singular;
@@ -502,7 +458,7 @@ SolveStatus Mumps::solve(Eigen::MatrixXd& rhs) {
   Impl& s = *impl_;
   if (!s.factored || rhs.rows() != s.n || !rhs.allFinite()) return SolveStatus::failed;
   if (rhs.size() == 0) return SolveStatus::ok;
-  const Spent spent(s.seconds);
+  const Timed timed(s.seconds);
   const LibraryCall guard(s.options.blas_threads);
   const Eigen::MatrixXd given = rhs;
   const SolveStatus status = s.substitute(rhs.data(), static_cast<Index>(rhs.cols()));

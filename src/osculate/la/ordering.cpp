@@ -30,9 +30,43 @@ Pattern transposed(const SparseMatrix& k) {
   return t;
 }
 
+/// Puts together what the processes have of the pattern, on the first one.
+SparseMatrix whole_pattern(const SparseMatrix& k) {
+  const core::Ranks& ranks = *k.ranks;
+  const bool first = ranks.rank() == 0;
+  const auto processes = static_cast<std::size_t>(ranks.count());
+  std::vector<int> lengths, columns;
+  for (Index i = 0; i < k.n; ++i)
+    lengths.push_back(k.row_start[static_cast<std::size_t>(i) + 1] -
+                      k.row_start[static_cast<std::size_t>(i)]);
+  std::vector<int> sizes(first ? processes : 0), starts(first ? processes * lengths.size() : 0);
+  const int size = static_cast<int>(k.column.size());
+  ranks.gather({&size, 1}, sizes);
+  ranks.gather(lengths, starts);
+  std::size_t all = 0;
+  for (const int s : sizes) all += static_cast<std::size_t>(s);
+  columns.resize(all);
+  ranks.gather(k.column, columns);
+  SparseMatrix whole;
+  if (!first) return whole;
+  whole.n = k.n;
+  whole.row_start = {0};
+  std::vector<std::size_t> next(processes, 0);
+  for (std::size_t p = 1; p < processes; ++p)
+    next[p] = next[p - 1] + static_cast<std::size_t>(sizes[p - 1]);
+  for (std::size_t i = 0; i < lengths.size(); ++i) {
+    for (std::size_t p = 0; p < processes; ++p)
+      for (int e = 0; e < starts[p * lengths.size() + i]; ++e)
+        whole.column.push_back(columns[next[p]++]);
+    whole.row_start.push_back(static_cast<Index>(whole.column.size()));
+  }
+  return whole;
+}
+
 }  // namespace
 
 std::vector<int> nested_dissection(const SparseMatrix& k) {
+  if (k.ranks) return nested_dissection(whole_pattern(k));
   const Pattern t = transposed(k);
   std::vector<idx_t> start{0}, adjacent;
   adjacent.reserve(k.column.size());
