@@ -180,6 +180,14 @@ class Program(unittest.TestCase):
         self.assertEqual(self.text("out/history.csv"), before)
         self.assertEqual(self.run_program("run", "a/model.yaml", "-o", "out").returncode, 0)
 
+    def test_what_a_killed_run_was_about_to_write_is_no_file_of_others(self):
+        self.model(BLOCK.replace("SIDE", "0.1"))
+        os.mkdir(self.path("out"))
+        for name in ("running.lock", "writable.part", "writable.part.part", "history.csv.part"):
+            self.model("", os.path.join("out", name))
+        done = self.run_program("run", "model.yaml", "-o", "out", "--until", "weight")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
     def test_files_of_others_in_a_result_folder_stay(self):
         self.model(BLOCK.replace("SIDE", "0.1"))
         self.assertEqual(self.run_program("run", "model.yaml", "-o", "out").returncode, 0)

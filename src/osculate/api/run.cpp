@@ -232,8 +232,9 @@ RunOutcome run_built(const RunOptions& options, const deck::Description& descrip
   std::optional<result::Checkpoint<Dim>> from;
   agree(ranks, [&] {
     check_until(options.until, built.model.steps);
-    folder = result::choose_folder(options.model, options.folder);
-    if (leads) lock.emplace(folder, !options.restart);
+    folder = leads ? result::choose_folder(options.model, options.folder)
+                   : result::result_folder(options.model, options.folder);
+    if (leads) lock.emplace(folder, !options.restart);  // others may see what this writes, or not
     if (options.restart)
       from = result::read_checkpoint<Dim>(folder, id, built.model, options.model);
   });

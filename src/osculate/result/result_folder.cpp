@@ -30,6 +30,7 @@ namespace {
 
 constexpr const char* lock_name = "running.lock";
 constexpr const char* list_name = "written.txt";
+constexpr const char* probe_name = "writable.part";
 
 /// Whose results a folder has; empty texts where it does not say.
 struct Owner {
@@ -91,7 +92,7 @@ bool same_model(const Owner& owner, const std::string& model) {
 }
 
 void require_writable(const std::string& folder) {
-  const fs::path probe = fs::path(folder) / "writable.part";
+  const fs::path probe = fs::path(folder) / probe_name;
   std::error_code ignored;
   try {
     io::write_file(probe.string(), "?");
@@ -112,13 +113,14 @@ bool is_common_file(std::string_view name) {
   constexpr std::array names{"history.csv",    "report.json",   "report.html",
                              "log.txt",        "journal.bin",   "checkpoint.bin",
                              "iterations.csv", "results.pvd",   "checkpoint.previous.bin",
-                             list_name,        "writable.part", "last_iterate.vtu"};
+                             list_name,        probe_name, "last_iterate.vtu"};
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// What a killed run was about to write.
+/// What a killed run was about to write, or tried whether it can.
 bool is_part(std::string_view name) {
   constexpr std::string_view part = ".part";
+  if (name == probe_name) return true;
   if (!name.ends_with(part)) return false;
   name.remove_suffix(part.size());
   return name == "summary.json" || is_common_file(name);
