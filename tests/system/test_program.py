@@ -186,7 +186,7 @@ class Program(unittest.TestCase):
         for name in ("running.lock", "writable.part", "writable.part.part", "history.csv.part"):
             self.model("", os.path.join("out", name))
         done = self.run_program("run", "model.yaml", "-o", "out", "--until", "weight")
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(done.returncode, 0, done.stderr)
 
     def test_files_of_others_in_a_result_folder_stay(self):
         self.model(BLOCK.replace("SIDE", "0.1"))
