@@ -62,17 +62,18 @@ SparseMatrix stored(const CompressedRows& a) {
   return k;
 }
 
-/// In pieces by several threads; the bits are those of one piece.
+/// In pieces, for several threads and since a product by Eigen is three times in memory at its end;
+/// the bits are those of one piece.
 CompressedRows product(const CompressedRows& a, const CompressedRows& b, int threads) {
   const auto rows = static_cast<Index>(a.rows());
   const Index pieces = std::min<Index>(rows, 8 * static_cast<Index>(threads));
-  if (threads < 2 || pieces < 2) return a * b;
+  if (pieces < 2) return a * b;
   std::vector<CompressedRows> piece(as_size(pieces));
   const auto begin = [&](Index p) {
     return static_cast<Index>(static_cast<std::int64_t>(rows) * p / pieces);
   };
   int without_room = 0;  // an exception must not leave the loop
-#pragma omp parallel for num_threads(threads) schedule(dynamic) reduction(+ : without_room)
+#pragma omp parallel for num_threads(threads) schedule(dynamic) reduction(+ : without_room) if (threads > 1)
   for (Index p = 0; p < pieces; ++p) try {
       piece[as_size(p)] = a.middleRows(begin(p), begin(p + 1) - begin(p)) * b;
     } catch (const std::bad_alloc&) {

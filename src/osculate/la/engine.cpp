@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "osculate/la/grouped_rows.hpp"
 #include "osculate/la/multigrid.hpp"
 #include "osculate/la/mumps.hpp"
 
@@ -111,31 +112,32 @@ class Exact {
 class MultigridEngine final : public Engine {
  public:
   bool build(const SparseMatrix& k, Symmetry symmetry, const Places& places) override {
-    return build(compressed(k, symmetry), symmetry, places);
+    a_ = {};
+    if (!build(compressed(k, symmetry), symmetry, places)) return false;
+    take(compressed(k, symmetry), places);  // not before: the coarser models take most memory
+    return true;
   }
   bool refresh(const SparseMatrix& k, Symmetry symmetry, const Places& places) override {
     threads_ = places.threads;
     symmetry_ = symmetry;
-    return bodies_ && bodies_->refresh(k, symmetry) &&
-           exact_.factor(bodies_->matrix(), places, symmetry, {});
+    if (!bodies_) return false;
+    a_ = {};
+    const CompressedRows a = compressed(k, symmetry);
+    take(a, places);
+    return bodies_->refresh(a) && exact_.factor(a, places, symmetry, {});
   }
-  bool build_again(const Places& places) override {
-    return build(compressed(matrix(), Symmetry::unsymmetric), symmetry_, places);
-  }
+  bool build_again(const Places& places) override { return build(a_.as_rows(), symmetry_, places); }
   Nearby solve(const PreconditionedLimits& limits, Eigen::VectorXd& rhs) override {
     return solve_preconditioned(
-        [this](const Eigen::VectorXd& x, Eigen::VectorXd& y) {
-          multiply(bodies_->matrix(), x, threads_, y);
-        },
+        [this](const Eigen::VectorXd& x, Eigen::VectorXd& y) { a_.multiply(x, threads_, y); },
         [this](Eigen::VectorXd& r) { return precondition(r); }, limits, rhs);
   }
-  [[nodiscard]] Eigen::VectorXd diagonal() const override {
-    return Eigen::VectorXd(bodies_->matrix().diagonal()).cwiseAbs();
-  }
-  [[nodiscard]] SparseMatrix matrix() const override { return stored(bodies_->matrix()); }
+  [[nodiscard]] Eigen::VectorXd diagonal() const override { return diagonal_; }
+  [[nodiscard]] SparseMatrix matrix() const override { return stored(a_.as_rows()); }
   void forget() override {
     exact_.forget();
     bodies_.reset();
+    a_ = {};
   }
 
  private:
@@ -147,6 +149,10 @@ class MultigridEngine final : public Engine {
     Eigen::MatrixXd motions = rigid_motions(places, standing_alone(a));
     return bodies_->build(std::move(a), groups_of(places), std::move(motions));
   }
+  void take(const CompressedRows& a, const Places& places) {
+    a_ = GroupedRows<double>(a, groups_of(places));
+    diagonal_ = Eigen::VectorXd(a.diagonal()).cwiseAbs();
+  }
   bool precondition(Eigen::VectorXd& r) {
     if (!exact_.any()) return bodies_->apply(r);
     Eigen::VectorXd few;
@@ -155,6 +161,8 @@ class MultigridEngine final : public Engine {
     return true;
   }
 
+  GroupedRows<double> a_;
+  Eigen::VectorXd diagonal_;
   std::unique_ptr<Multigrid> bodies_;
   Exact exact_;
   Symmetry symmetry_ = Symmetry::unsymmetric;

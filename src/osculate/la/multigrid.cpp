@@ -7,14 +7,16 @@
 #include <vector>
 
 #include "osculate/la/block_diagonal.hpp"
+#include "osculate/la/grouped_rows.hpp"
 #include "osculate/la/mumps.hpp"
 
 namespace osculate::la {
 namespace {
 
-/// One model.
+/// One model. Its products are of entries in single precision: they are a preconditioner's.
 struct Level {
-  CompressedRows a, p, transposed;  ///< the last two lead to the next coarser one
+  CompressedRows a;                            ///< for as long as a coarser model is made of it
+  GroupedRows<float> products, p, transposed;  ///< the last two lead to the next coarser one
   GroupStarts start;
   Eigen::MatrixXd near_null;
   BlockDiagonal inverse;
@@ -22,13 +24,15 @@ struct Level {
   Eigen::VectorXd x, r, d, t, of_coarse;
 
   /// What the smoother needs; false: there are no numbers.
-  bool prepare_smoother(int threads);
+  bool prepare_smoother(const CompressedRows& matrix, int threads);
   void find_largest(int threads);
   void smooth(Eigen::VectorXd& solution, bool residual_wanted, int threads);
 };
 
-bool Level::prepare_smoother(int threads) {
-  inverse = BlockDiagonal(a, start);
+bool Level::prepare_smoother(const CompressedRows& matrix, int threads) {
+  products = {};  // gives its memory back before
+  products = GroupedRows<float>(matrix, start);
+  inverse = BlockDiagonal(matrix, start);
   find_largest(threads);
   return largest > 0 && std::isfinite(largest);
 }
@@ -37,7 +41,7 @@ bool Level::prepare_smoother(int threads) {
 void Level::find_largest(int threads) {
   constexpr int rounds = 15;
   constexpr double more = 1.05;
-  Eigen::VectorXd v(a.rows()), w;
+  Eigen::VectorXd v(start.back()), w;
   std::uint32_t noise = 1;
   for (double& value : v) {
     noise = noise * 1664525U + 1013904223U;
@@ -47,7 +51,7 @@ void Level::find_largest(int threads) {
     const double size = v.norm();
     if (!(size > 0) || !std::isfinite(size)) break;
     v /= size;
-    multiply(a, v, threads, w);
+    products.multiply(v, threads, w);
     inverse.apply(w, threads, v);
     largest = more * v.norm();
   }
@@ -66,7 +70,7 @@ void Level::smooth(Eigen::VectorXd& solution, bool residual_wanted, int threads)
   for (int i = 1;; ++i) {
     solution += d;
     if (i == degree && !residual_wanted) return;
-    multiply(a, d, threads, t);
+    products.multiply(d, threads, t);
     r -= t;
     if (i == degree) return;
     const double next = 1 / (2 * sigma - rho);
@@ -161,6 +165,7 @@ struct Multigrid::Impl {
   int threads = 1;
   std::vector<std::unique_ptr<Level>> levels{};
   std::unique_ptr<Mumps> coarsest{};
+  double entries = 0, finest_entries = 1;
 
   bool coarsen();
   bool cycle(std::size_t level, const Eigen::VectorXd& b, Eigen::VectorXd& x);
@@ -177,16 +182,22 @@ bool Multigrid::Impl::coarsen() {
   {
     const CompressedRows spread = product(fine.a, next.p, threads);
     const CompressedRows scaled = product(fine.inverse.as_matrix(), spread, threads);
-    fine.p = next.p - (damping / fine.largest) * scaled;
-    fine.p.makeCompressed();
+    next.p = next.p - (damping / fine.largest) * scaled;
+    next.p.makeCompressed();
   }
-  fine.transposed = fine.p.transpose();
+  fine.p = GroupedRows<float>(next.p, fine.start);
+  CompressedRows a = product(fine.a, next.p, threads);
+  fine.a = {};
+  const CompressedRows transposed = next.p.transpose();
+  next.p = {};
+  a = product(transposed, a, threads);
+  fine.transposed = GroupedRows<float>(transposed, next.start);
   auto coarse = std::make_unique<Level>();
-  CompressedRows a = product(fine.transposed, product(fine.a, fine.p, threads), threads);
   coarse->a.swap(a);
   coarse->start = std::move(next.start);
   coarse->near_null = std::move(next.near_null);
   fine.near_null = {};
+  entries += static_cast<double>(coarse->a.nonZeros());
   levels.push_back(std::move(coarse));
   return true;
 }
@@ -203,23 +214,25 @@ bool Multigrid::build(CompressedRows&& a, GroupStarts groups, Eigen::MatrixXd ne
   forget();
   s.levels.push_back(std::make_unique<Level>());
   s.levels[0]->a.swap(a);  // matrices of Eigen are copied where they are moved
+  s.entries = s.finest_entries = static_cast<double>(s.levels[0]->a.nonZeros());
   s.levels[0]->start = std::move(groups);
   s.levels[0]->near_null = std::move(near_null);
   while (s.levels.back()->a.rows() > coarsest && s.levels.size() < most_levels) {
-    if (!s.levels.back()->prepare_smoother(s.threads)) return false;
+    Level& last = *s.levels.back();
+    if (!last.prepare_smoother(last.a, s.threads)) return false;
     if (!s.coarsen()) break;
   }
   s.coarsest = std::make_unique<Mumps>();
   const FactorReport report =
       s.coarsest->factor(stored(s.levels.back()->a), 0, Symmetry::unsymmetric);
+  s.levels.back()->a = {};
   return report.status == SolveStatus::ok;
 }
 
-bool Multigrid::refresh(const SparseMatrix& k, Symmetry symmetry) {
+bool Multigrid::refresh(const CompressedRows& a) {
   Impl& s = *impl_;
-  if (!s.coarsest || s.levels.size() < 2 || s.levels[0]->a.rows() != k.n) return false;
-  compress(k, symmetry, s.levels[0]->a);
-  return s.levels[0]->prepare_smoother(s.threads);
+  if (!s.coarsest || s.levels.size() < 2 || s.levels[0]->start.back() != a.rows()) return false;
+  return s.levels[0]->prepare_smoother(a, s.threads);
 }
 
 bool Multigrid::Impl::cycle(std::size_t level, const Eigen::VectorXd& b, Eigen::VectorXd& x) {
@@ -232,11 +245,11 @@ bool Multigrid::Impl::cycle(std::size_t level, const Eigen::VectorXd& b, Eigen::
   fine.r = b;
   fine.smooth(x, true, threads);
   Eigen::VectorXd rest;
-  multiply(fine.transposed, fine.r, threads, rest);
+  fine.transposed.multiply(fine.r, threads, rest);
   if (!cycle(level + 1, rest, fine.of_coarse)) return false;
-  multiply(fine.p, fine.of_coarse, threads, fine.d);
+  fine.p.multiply(fine.of_coarse, threads, fine.d);
   x += fine.d;
-  multiply(fine.a, fine.d, threads, fine.t);
+  fine.products.multiply(fine.d, threads, fine.t);
   fine.r -= fine.t;
   fine.smooth(x, false, threads);
   return true;
@@ -249,13 +262,7 @@ bool Multigrid::apply(Eigen::VectorXd& rhs) {
   return rhs.allFinite();
 }
 
-const CompressedRows& Multigrid::matrix() const { return impl_->levels.front()->a; }
-
-double Multigrid::complexity() const {
-  double entries = 0;
-  for (const auto& level : impl_->levels) entries += static_cast<double>(level->a.nonZeros());
-  return entries / static_cast<double>(matrix().nonZeros());
-}
+double Multigrid::complexity() const { return impl_->entries / impl_->finest_entries; }
 
 int Multigrid::levels() const { return static_cast<int>(impl_->levels.size()); }
 

@@ -11,9 +11,9 @@ namespace osculate::la {
 /// Chebyshev polynomial of the blocks of the nodes, the coarsest model is factored by Mumps.
 ///
 /// Formula    P = (I - 4 / (3 rho) D^-1 A) P_0 , A_coarse = P^T A P , P_0 an orthonormal basis of
-/// the
-///            near null vectors in each aggregate, D the diagonal blocks, rho the largest
-///            eigenvalue of D^-1 A
+///            the near null vectors in each aggregate, D the diagonal blocks, rho the largest
+///            eigenvalue of D^-1 A . Models are made in double precision, the cycle multiplies with
+///            their entries rounded to single precision (vectors and sums are double: it is linear)
 /// Contract   the bits depend on the matrix, groups and near null vectors alone
 /// Source     P. Vanek, J. Mandel, M. Brezina, Computing 56 (1996) 179-196;
 ///            M. Adams et al., J. Comput. Phys. 188 (2003) 593-610 (Chebyshev)
@@ -32,9 +32,7 @@ class Multigrid {
   bool build(CompressedRows&& a, GroupStarts groups, Eigen::MatrixXd near_null);
   /// Takes another matrix of the same unknowns, near to the one that it was built of: the coarser
   /// models stay. False: it has to be built.
-  bool refresh(const SparseMatrix& k, Symmetry symmetry);
-  /// The matrix that it was given last.
-  [[nodiscard]] const CompressedRows& matrix() const;
+  bool refresh(const CompressedRows& a);
   /// One cycle from zero. False: no numbers came out.
   bool apply(Eigen::VectorXd& rhs_in_solution_out);
   /// Entries of all matrices over those of the finest.

@@ -1,0 +1,163 @@
+#include "osculate/la/grouped_rows.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <type_traits>
+#include <utility>
+
+namespace osculate::la {
+namespace {
+
+/// By which the largest entry becomes a number near one; of double precision nothing is changed.
+template <class Value>
+double scale_of(const CompressedRows& a) {
+  if constexpr (std::is_same_v<Value, double>) return 1;
+  double largest = 0;
+  for (Eigen::Index e = 0; e < a.nonZeros(); ++e)
+    largest = std::max(largest, std::abs(a.valuePtr()[e]));
+  int exponent = 0;
+  if (!(largest > 0) || !std::isfinite(largest)) return 1;
+  std::frexp(largest, &exponent);
+  return std::ldexp(1.0, -exponent);
+}
+
+/// Sums of a row each, which stay in registers: no loop over the rows is left to the compiler.
+template <class Value, class Run, std::size_t... Row>
+void sum_up(const Value* values, std::pair<const Run*, const Run*> runs, const double* x,
+            double back, double* y, std::index_sequence<Row...> /*rows*/) {
+  std::array<double, sizeof...(Row)> sum{};
+  for (const Run* run = runs.first; run != runs.second; ++run) {
+    const double* const of_run = x + run->first;
+    for (Index k = 0; k < run->count; ++k, values += sizeof...(Row))
+      ((sum[Row] += static_cast<double>(values[Row]) * of_run[k]), ...);
+  }
+  ((y[Row] = back * sum[Row]), ...);
+}
+
+/// Likewise, of any number of rows.
+template <class Value, class Run>
+void sum_up_any(Index rows, const Value* values, std::pair<const Run*, const Run*> runs,
+                const double* x, double back, double* y) {
+  for (Index i = 0; i < rows; ++i) {
+    const Value* value = values + i;
+    double sum = 0;
+    for (const Run* run = runs.first; run != runs.second; ++run)
+      for (Index k = 0; k < run->count; ++k, value += rows)
+        sum += static_cast<double>(*value) * x[run->first + k];
+    y[i] = back * sum;
+  }
+}
+
+}  // namespace
+
+template <class Value>
+GroupedRows<Value>::GroupedRows(const CompressedRows& a, GroupStarts groups)
+    : groups_(std::move(groups)),
+      columns_(static_cast<Index>(a.cols())),
+      scale_(scale_of<Value>(a)) {
+  find_columns(a);
+  fill(a);
+}
+
+/// The columns of a group are those of any of its rows.
+template <class Value>
+void GroupedRows<Value>::find_columns(const CompressedRows& a) {
+  std::vector<Index> columns, before;
+  for (std::size_t g = 0; g + 1 < groups_.size(); ++g) {
+    columns.clear();
+    for (Index i = groups_[g]; i < groups_[g + 1]; ++i) {
+      const Index *const begin = a.innerIndexPtr() + a.outerIndexPtr()[i],
+                         *const end = a.innerIndexPtr() + a.outerIndexPtr()[i + 1];
+      if (std::equal(begin, end, columns.begin(), columns.end())) continue;
+      before.swap(columns);
+      columns.clear();
+      std::set_union(before.begin(), before.end(), begin, end, std::back_inserter(columns));
+    }
+    for (const Index column : columns)
+      if (runs_.size() > first_run_[g] && runs_.back().first + runs_.back().count == column)
+        ++runs_.back().count;
+      else
+        runs_.push_back({column, 1});
+    first_run_.push_back(runs_.size());
+    first_value_.push_back(first_value_[g] + columns.size() * as_size(size_of(g)));
+  }
+}
+
+template <class Value>
+void GroupedRows<Value>::fill(const CompressedRows& a) {
+  values_.assign(first_value_.back(), Value{0});
+  for (std::size_t g = 0; g + 1 < groups_.size(); ++g)
+    for (Index i = 0; i < size_of(g); ++i) {
+      Value* value = values_.data() + first_value_[g] + i;
+      const Run* run = runs_.data() + first_run_[g];
+      Index passed = 0;  // columns of the run
+      for (CompressedRows::InnerIterator entry(a, groups_[g] + i); entry; ++entry) {
+        while (run->first + run->count <= entry.col()) {
+          value += static_cast<std::ptrdiff_t>(size_of(g)) * (run->count - passed);
+          passed = 0;
+          ++run;
+        }
+        value += static_cast<std::ptrdiff_t>(size_of(g)) * (entry.col() - run->first - passed);
+        passed = static_cast<Index>(entry.col()) - run->first;
+        *value = static_cast<Value>(scale_ * entry.value());
+      }
+    }
+}
+
+template <class Value>
+void GroupedRows<Value>::multiply(const Eigen::VectorXd& x, int threads, Eigen::VectorXd& y) const {
+  y.resize(groups_.back());
+  const double back = 1 / scale_;
+  const auto groups = static_cast<Index>(groups_.size()) - 1;
+#pragma omp parallel for num_threads(threads) schedule(static) if (threads > 1)
+  for (Index i = 0; i < groups; ++i) {
+    const std::size_t g = as_size(i);
+    const std::pair runs{runs_.data() + first_run_[g], runs_.data() + first_run_[g + 1]};
+    const Value* const values = values_.data() + first_value_[g];
+    double* const to = y.data() + groups_[g];
+    switch (const Index size = size_of(g)) {
+      case 1:
+        sum_up(values, runs, x.data(), back, to, std::make_index_sequence<1>{});
+        break;
+      case 2:
+        sum_up(values, runs, x.data(), back, to, std::make_index_sequence<2>{});
+        break;
+      case 3:
+        sum_up(values, runs, x.data(), back, to, std::make_index_sequence<3>{});
+        break;
+      case 6:
+        sum_up(values, runs, x.data(), back, to, std::make_index_sequence<6>{});
+        break;
+      default:
+        sum_up_any(size, values, runs, x.data(), back, to);
+    }
+  }
+}
+
+template <class Value>
+CompressedRows GroupedRows<Value>::as_rows() const {
+  CompressedRows a(groups_.back(), columns_);
+  std::vector<Index> column;
+  std::vector<double> value;
+  for (std::size_t g = 0; g + 1 < groups_.size(); ++g)
+    for (Index i = 0; i < size_of(g); ++i) {
+      const Value* next = values_.data() + first_value_[g] + i;
+      for (std::size_t r = first_run_[g]; r < first_run_[g + 1]; ++r)
+        for (Index k = 0; k < runs_[r].count; ++k, next += size_of(g))
+          if (*next != 0 || runs_[r].first + k == groups_[g] + i) {
+            column.push_back(runs_[r].first + k);
+            value.push_back(static_cast<double>(*next) / scale_);
+          }
+      a.outerIndexPtr()[groups_[g] + i + 1] = static_cast<Index>(column.size());
+    }
+  a.resizeNonZeros(static_cast<Index>(column.size()));
+  std::ranges::copy(column, a.innerIndexPtr());
+  std::ranges::copy(value, a.valuePtr());
+  return a;
+}
+
+template class GroupedRows<double>;
+template class GroupedRows<float>;
+
+}  // namespace osculate::la

@@ -1,0 +1,77 @@
+#include "osculate/la/grouped_rows.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "elastic_block.hpp"
+
+namespace osculate::la {
+namespace {
+
+using test::ElasticBlock;
+
+/// Groups of one to seven rows, whose columns differ and are not all side by side.
+CompressedRows irregular(const GroupStarts& groups, Index columns) {
+  std::vector<Eigen::Triplet<double, Index>> entries;
+  for (Index i = 0; i < groups.back(); ++i)
+    for (Index j = 0; j < columns; ++j)
+      if ((i * 7 + j * j) % 5 < 2 && (i + j) % 11 != 0)
+        entries.emplace_back(i, j, std::sin(1.3 * i + 0.7 * j) * std::pow(10.0, i % 3));
+  CompressedRows a(groups.back(), columns);
+  a.setFromTriplets(entries.begin(), entries.end());
+  return a;
+}
+
+Eigen::VectorXd values(Eigen::Index n) {
+  Eigen::VectorXd v(n);
+  for (Eigen::Index i = 0; i < n; ++i) v[i] = std::sin(1.7 * static_cast<double>(i * i % 1009));
+  return v;
+}
+
+const GroupStarts of_all_sizes{0, 3, 4, 6, 12, 12, 16, 21, 28, 31};
+
+TEST(GroupedRows, HaveTheBitsOfProductsRowByRow) {
+  const CompressedRows a = irregular(of_all_sizes, 23);
+  const Eigen::VectorXd x = values(23);
+  Eigen::VectorXd expected, y, by_two;
+  multiply(a, x, 1, expected);
+  const GroupedRows<double> grouped(a, of_all_sizes);
+  grouped.multiply(x, 1, y);
+  grouped.multiply(x, 2, by_two);
+  EXPECT_EQ(y, expected);
+  EXPECT_EQ(by_two, expected);
+  EXPECT_GT(grouped.entries(), static_cast<std::size_t>(a.nonZeros()));
+}
+
+TEST(GroupedRows, GiveBackTheEntriesThatTheyWereMadeOf) {
+  const ElasticBlock block(3, 3, 2);
+  GroupStarts groups{0};
+  for (Index size = 0; groups.back() < block.unknowns(); size = (size + 1) % 7)
+    groups.push_back(std::min(groups.back() + size, block.unknowns()));
+  const CompressedRows a = compressed(block.matrix(), Symmetry::unsymmetric);
+  const CompressedRows again = GroupedRows<double>(a, groups).as_rows();
+  EXPECT_EQ(Eigen::MatrixXd(again), Eigen::MatrixXd(a));
+  EXPECT_EQ(again.nonZeros(), a.nonZeros());
+}
+
+TEST(GroupedRows, OfSinglePrecisionAreALinearMapNearToTheMatrix) {
+  for (const double unit : {1.0, 1e60, 1e-60}) {  // beyond the range of float
+    const CompressedRows a = unit * irregular(of_all_sizes, 23);
+    const GroupedRows<float> grouped(a, of_all_sizes);
+    const Eigen::VectorXd x = values(23), z = values(23).reverse();
+    Eigen::VectorXd exact, ax, az, of_sum;
+    multiply(a, x, 1, exact);
+    grouped.multiply(x, 1, ax);
+    grouped.multiply(z, 1, az);
+    grouped.multiply(3 * x - z, 1, of_sum);
+    const double size = Eigen::MatrixXd(a).norm() * x.norm();
+    EXPECT_LT((ax - exact).norm(), std::ldexp(size, -24));
+    EXPECT_GT((ax - exact).norm(), 0);
+    EXPECT_LT((of_sum - (3 * ax - az)).norm(), 1e-15 * size);
+  }
+}
+
+}  // namespace
+}  // namespace osculate::la
