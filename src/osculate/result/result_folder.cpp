@@ -110,10 +110,10 @@ bool is_plain_name(const std::string& name) {
 
 /// The files whose names all runs give.
 bool is_common_file(std::string_view name) {
-  constexpr std::array names{"history.csv",    "report.json",   "report.html",
-                             "log.txt",        "journal.bin",   "checkpoint.bin",
-                             "iterations.csv", "results.pvd",   "checkpoint.previous.bin",
-                             list_name,        probe_name, "last_iterate.vtu"};
+  constexpr std::array names{"history.csv",    "report.json", "report.html",
+                             "log.txt",        "journal.bin", "checkpoint.bin",
+                             "iterations.csv", "results.pvd", "checkpoint.previous.bin",
+                             list_name,        probe_name,    "last_iterate.vtu"};
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
