@@ -49,6 +49,22 @@ class ThreadRanks final : public core::Ranks {
       if (rank_ == 0) to = std::copy(of.begin(), of.end(), to);
     meeting_.all_here.arrive_and_wait();
   }
+  void exchange(std::span<const double> values, std::span<const int> to, std::span<double> received,
+                std::span<const int> from) const override {
+    meeting_.doubles[me()] = values;
+    meeting_.ints[me()] = to;
+    meeting_.all_here.arrive_and_wait();
+    std::vector<double> taken;
+    for (std::size_t r = 0; r < meeting_.doubles.size(); ++r) {
+      std::size_t begin = 0;
+      for (std::size_t p = 0; p < me(); ++p) begin += static_cast<std::size_t>(meeting_.ints[r][p]);
+      if (meeting_.ints[r][me()] != from[r]) std::abort();
+      const auto part = meeting_.doubles[r].subspan(begin, static_cast<std::size_t>(from[r]));
+      taken.insert(taken.end(), part.begin(), part.end());
+    }
+    meeting_.all_here.arrive_and_wait();
+    std::copy(taken.begin(), taken.end(), received.begin());
+  }
   void finish() const override {}
   [[noreturn]] void end_all(int /*code*/) const override { std::abort(); }
 

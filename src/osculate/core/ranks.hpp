@@ -32,6 +32,10 @@ class Ranks {
   virtual void spread(std::span<int> values, int from) const = 0;
   /// What all have, one process after the other, on process 0; nothing on the others.
   virtual void gather(std::span<const int> mine, std::span<int> all) const = 0;
+  /// Numbers for each process, those for one after those for the other; what comes are those that
+  /// each has for this one. `to` and `from` say how many there are; all know of each other's.
+  virtual void exchange(std::span<const double> values, std::span<const int> to,
+                        std::span<double> received, std::span<const int> from) const = 0;
   /// This process takes leave, as all others do.
   virtual void finish() const = 0;
   /// Ends all processes.

@@ -28,7 +28,7 @@ class RowOfBlocks {
     met_.clear();
     for (Index i = start_[as_size(g)]; i < start_[as_size(g) + 1]; ++i)
       for (CompressedRows::InnerIterator entry(a_, i); entry; ++entry) {
-        if (entry.value() == 0) continue;
+        if (entry.value() == 0 || entry.col() >= a_.rows()) continue;
         const Index h = group_of_[as_size(static_cast<Index>(entry.col()))];
         if (square_[as_size(h)] == 0) met_.push_back(h);
         square_[as_size(h)] += entry.value() * entry.value() + touched;

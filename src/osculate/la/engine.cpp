@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "osculate/la/dealt_rows.hpp"
 #include "osculate/la/grouped_rows.hpp"
 #include "osculate/la/multigrid.hpp"
-#include "osculate/la/mumps.hpp"
 
 namespace osculate::la {
 
@@ -32,69 +32,85 @@ Eigen::MatrixXd rigid_motions(const Places& places, const std::vector<char>& alo
 
 namespace {
 
-/// Unknowns of one node that follow each other are a group; those of no node are one each.
-GroupStarts groups_of(const Places& places) {
+/// Where the unknowns of the rows here are.
+struct Part {
+  Dealt dealt;
+  Halo halo;
+  std::vector<Index> unknowns;  ///< those here, own ones first; none, where all are
+
+  [[nodiscard]] Index unknown(Index here) const {
+    return dealt.ranks ? unknowns[as_size(here)] : here;
+  }
+  [[nodiscard]] Eigen::VectorXd here(const Eigen::VectorXd& all) const {
+    if (dealt.ranks) return all(unknowns);
+    return all;
+  }
+  [[nodiscard]] Eigen::VectorXd own(const Eigen::VectorXd& all) const {
+    return here(all).head(halo.own());
+  }
+  [[nodiscard]] Eigen::VectorXd all(Eigen::VectorXd&& own) const {
+    if (dealt.ranks) return halo.gathered(own)(dealt.number);
+    return std::move(own);
+  }
+};
+
+/// Own unknowns of one node that follow each other are a group; those of no node are one each.
+GroupStarts groups_of(const Places& places, const Part& part) {
   GroupStarts start{0};
-  const auto n = static_cast<Index>(places.node.size());
-  for (Index i = 1; i <= n; ++i)
-    if (i == n || places.node[as_size(i)] < 0 ||
-        places.node[as_size(i)] != places.node[as_size(i - 1)])
-      start.push_back(i);
+  const auto node = [&](Index i) { return places.node[as_size(part.unknown(i))]; };
+  for (Index i = 1; i <= part.halo.own(); ++i)
+    if (i == part.halo.own() || node(i) < 0 || node(i) != node(i - 1)) start.push_back(i);
   return start;
 }
 
-std::vector<char> standing_alone(const CompressedRows& a) {
-  std::vector<char> alone(as_size(static_cast<Index>(a.rows())), 1);
+/// Rigid motions of own unknowns.
+Eigen::MatrixXd own_motions(const CompressedRows& a, const Places& places, const Part& part) {
+  std::vector<char> alone(places.node.size(), 1);
   for (Index i = 0; i < a.rows(); ++i)
     for (CompressedRows::InnerIterator entry(a, i); entry; ++entry)
-      if (entry.col() != i) alone[as_size(i)] = 0;
-  return alone;
+      if (entry.col() != i) alone[as_size(part.unknown(i))] = 0;
+  Eigen::MatrixXd motions = rigid_motions(places, alone);
+  if (!part.dealt.ranks) return motions;
+  const std::vector<Index> own(part.unknowns.begin(), part.unknowns.begin() + part.halo.own());
+  return motions(own, Eigen::all);
 }
 
 /// What is solved for directly: rows and columns of the matrix that are of contact.
 class Exact {
  public:
   /// False: singular.
-  bool factor(const CompressedRows& a, const Places& places, Symmetry symmetry,
+  bool factor(const CompressedRows& a, const Places& places, const Part& part, Symmetry symmetry,
               const MumpsOptions& options) {
-    const auto n = static_cast<Index>(a.rows());
     unknowns_.clear();
-    std::vector<Index> position(as_size(n), -1);
-    for (Index i = 0; i < n; ++i)
-      if (places.exact[as_size(i)] != 0 || places.node[as_size(i)] < 0) {
-        position[as_size(i)] = static_cast<Index>(unknowns_.size());
-        unknowns_.push_back(i);
+    std::vector<Index> position(places.node.size(), -1);
+    for (std::size_t u = 0; u < position.size(); ++u)
+      if (places.exact[u] != 0 || places.node[u] < 0) {
+        position[u] = static_cast<Index>(unknowns_.size());
+        unknowns_.push_back(static_cast<Index>(u));
       }
     if (unknowns_.empty()) return true;
     std::vector<Eigen::Triplet<double, Index>> entries;
-    for (Index i = 0; i < n; ++i)
+    for (Index i = 0; i < a.rows(); ++i)
       for (CompressedRows::InnerIterator entry(a, i); entry; ++entry)
-        if (const Index j = position[as_size(entry.col())]; j >= 0)
+        if (const Index j = position[as_size(part.unknown(static_cast<Index>(entry.col())))];
+            j >= 0)
           entries.emplace_back(i, j, entry.value());
-    columns_.resize(n, static_cast<Index>(unknowns_.size()));
+    columns_.resize(static_cast<Index>(a.rows()), static_cast<Index>(unknowns_.size()));
     columns_.setFromTriplets(entries.begin(), entries.end());
-    SparseMatrix few;
-    few.n = static_cast<Index>(unknowns_.size());
-    few.row_start = {0};
-    for (const Index i : unknowns_) {
-      for (CompressedRows::InnerIterator entry(columns_, i); entry; ++entry) {
-        few.column.push_back(static_cast<Index>(entry.col()));
-        few.value.push_back(entry.value());
-      }
-      few.row_start.push_back(static_cast<Index>(few.column.size()));
-    }
     direct_ = std::make_unique<Mumps>(options);
-    return direct_->factor(few, 0, symmetry).status == SolveStatus::ok;
+    return direct_->factor(few_rows(part), 0, symmetry).status == SolveStatus::ok;
   }
   [[nodiscard]] bool any() const { return !unknowns_.empty(); }
-  /// few = K_cc^-1 r_c , and r gets the residual that they leave; false: it cannot be.
-  bool apply(int threads, Eigen::VectorXd& r, Eigen::VectorXd& few) {
+  /// K_cc^-1 r_c ; false: it cannot be.
+  bool solve(const Eigen::VectorXd& r, Eigen::VectorXd& few) {
     few = r(unknowns_);
-    if (direct_->solve(few) != SolveStatus::ok) return false;
+    return direct_->solve(few) == SolveStatus::ok;
+  }
+  /// What they are balanced by, of own rows.
+  void balance(const Eigen::VectorXd& few, int threads, Eigen::VectorXd& own) const {
     Eigen::VectorXd balanced;
     multiply(columns_, few, threads, balanced);
-    r -= balanced;
-    return true;
+    own -= balanced;
   }
   void add(const Eigen::VectorXd& few, Eigen::VectorXd& x) const { x(unknowns_) += few; }
   void forget() {
@@ -104,6 +120,24 @@ class Exact {
   }
 
  private:
+  [[nodiscard]] SparseMatrix few_rows(const Part& part) const {
+    SparseMatrix few;
+    few.n = static_cast<Index>(unknowns_.size());
+    few.ranks = part.dealt.ranks;
+    few.row_start = {0};
+    for (const Index u : unknowns_) {
+      if (part.dealt.is_here(u)) {
+        const Index row = few.ranks ? part.dealt.number[as_size(u)] - part.halo.begin() : u;
+        for (CompressedRows::InnerIterator entry(columns_, row); entry; ++entry) {
+          few.column.push_back(static_cast<Index>(entry.col()));
+          few.value.push_back(entry.value());
+        }
+      }
+      few.row_start.push_back(static_cast<Index>(few.column.size()));
+    }
+    return few;
+  }
+
   std::vector<Index> unknowns_;
   CompressedRows columns_;
   std::unique_ptr<Mumps> direct_;
@@ -111,29 +145,40 @@ class Exact {
 
 class MultigridEngine final : public Engine {
  public:
+  explicit MultigridEngine(const MumpsOptions& direct) : direct_(direct) {}
+
   bool build(const SparseMatrix& k, Symmetry symmetry, const Places& places) override {
     a_ = {};
-    if (!build(compressed(k, symmetry), symmetry, places)) return false;
-    take(compressed(k, symmetry), places);  // not before: the coarser models take most memory
+    part_ = {};
+    part_.dealt = dealt_as(k);
+    if (!build(rows_here(k, symmetry), symmetry, places)) return false;
+    take(rows_here(k, symmetry), places);  // not before: the coarser models take most memory
     return true;
   }
   bool refresh(const SparseMatrix& k, Symmetry symmetry, const Places& places) override {
     threads_ = places.threads;
     symmetry_ = symmetry;
-    if (!bodies_) return false;
+    if (!bodies_ || part_.dealt.ranks != k.ranks) return false;
     a_ = {};
-    const CompressedRows a = compressed(k, symmetry);
+    const CompressedRows a = rows_here(k, symmetry);
     take(a, places);
-    return bodies_->refresh(a) && exact_.factor(a, places, symmetry, {});
+    return bodies_->refresh(a, part_.halo) && exact_.factor(a, places, part_, symmetry, direct_);
   }
   bool build_again(const Places& places) override { return build(a_.as_rows(), symmetry_, places); }
   Nearby solve(const PreconditionedLimits& limits, Eigen::VectorXd& rhs) override {
     return solve_preconditioned(
-        [this](const Eigen::VectorXd& x, Eigen::VectorXd& y) { a_.multiply(x, threads_, y); },
+        [this](const Eigen::VectorXd& x, Eigen::VectorXd& y) {
+          if (!part_.dealt.ranks) return a_.multiply(x, threads_, y);
+          Eigen::VectorXd own;
+          a_.multiply(part_.here(x), threads_, own);
+          y = part_.all(std::move(own));
+        },
         [this](Eigen::VectorXd& r) { return precondition(r); }, limits, rhs);
   }
   [[nodiscard]] Eigen::VectorXd diagonal() const override { return diagonal_; }
-  [[nodiscard]] SparseMatrix matrix() const override { return stored(a_.as_rows()); }
+  [[nodiscard]] SparseMatrix matrix() const override {
+    return matrix_of(a_.as_rows(), part_.halo, part_.dealt);
+  }
   void forget() override {
     exact_.forget();
     bodies_.reset();
@@ -141,26 +186,41 @@ class MultigridEngine final : public Engine {
   }
 
  private:
+  /// Rows of this process with columns here.
+  CompressedRows rows_here(const SparseMatrix& k, Symmetry symmetry) {
+    const Dealt& dealt = part_.dealt;
+    CompressedRows a = own_rows(k, symmetry, dealt);
+    part_.halo = halo_of(dealt.ranks, dealt.ranks ? dealt.first : std::vector<Index>{0, k.n}, {&a});
+    part_.unknowns.clear();
+    for (Index i = 0; dealt.ranks && i < part_.halo.here(); ++i)
+      part_.unknowns.push_back(dealt.unknown[as_size(part_.halo.number_everywhere(i))]);
+    return with_columns_here(std::move(a), part_.halo);
+  }
   bool build(CompressedRows&& a, Symmetry symmetry, const Places& places) {
     threads_ = places.threads;
     symmetry_ = symmetry;
-    if (!exact_.factor(a, places, symmetry, {})) return false;
+    if (!exact_.factor(a, places, part_, symmetry, direct_)) return false;
     bodies_ = std::make_unique<Multigrid>(threads_);
-    Eigen::MatrixXd motions = rigid_motions(places, standing_alone(a));
-    return bodies_->build(std::move(a), groups_of(places), std::move(motions));
+    Eigen::MatrixXd motions = own_motions(a, places, part_);
+    return bodies_->build(std::move(a), part_.halo, groups_of(places, part_), std::move(motions));
   }
   void take(const CompressedRows& a, const Places& places) {
-    a_ = GroupedRows<double>(a, groups_of(places));
-    diagonal_ = Eigen::VectorXd(a.diagonal()).cwiseAbs();
+    a_ = GroupedRows<double>(a, groups_of(places, part_));
+    diagonal_ = part_.all(Eigen::VectorXd(a.diagonal()).cwiseAbs());
   }
   bool precondition(Eigen::VectorXd& r) {
-    if (!exact_.any()) return bodies_->apply(r);
     Eigen::VectorXd few;
-    if (!exact_.apply(threads_, r, few) || !bodies_->apply(r)) return false;
-    exact_.add(few, r);
+    if (exact_.any() && !exact_.solve(r, few)) return false;
+    if (part_.dealt.ranks) r = part_.own(r);
+    if (exact_.any()) exact_.balance(few, threads_, r);
+    if (!bodies_->apply(r)) return false;
+    if (part_.dealt.ranks) r = part_.all(std::move(r));
+    if (exact_.any()) exact_.add(few, r);
     return true;
   }
 
+  MumpsOptions direct_;
+  Part part_;
   GroupedRows<double> a_;
   Eigen::VectorXd diagonal_;
   std::unique_ptr<Multigrid> bodies_;
@@ -171,6 +231,8 @@ class MultigridEngine final : public Engine {
 
 }  // namespace
 
-std::unique_ptr<Engine> make_multigrid_engine() { return std::make_unique<MultigridEngine>(); }
+std::unique_ptr<Engine> make_multigrid_engine(const MumpsOptions& direct) {
+  return std::make_unique<MultigridEngine>(direct);
+}
 
 }  // namespace osculate::la

@@ -1,10 +1,9 @@
 #pragma once
 #include <Eigen/Core>
-#include <functional>
 #include <memory>
 #include <vector>
 
-#include "osculate/la/linear_solver.hpp"
+#include "osculate/la/mumps.hpp"
 #include "osculate/la/preconditioned.hpp"
 
 namespace osculate::la {
@@ -38,15 +37,13 @@ class Engine {
   virtual void forget() = 0;
 };
 
-using MakeEngine = std::function<std::unique_ptr<Engine>()>;
-
 /// Translations of the nodes, and rotations about the middle of all. Zero where `alone` is not: an
 /// unknown that has nothing to do with others, as where its motion is prescribed, or of no node.
 ///
 /// Shapes     a row per unknown, three columns in the plane and six in space
 [[nodiscard]] Eigen::MatrixXd rigid_motions(const Places& places, const std::vector<char>& alone);
 
-/// la::Multigrid, with factors of what is exact.
-[[nodiscard]] std::unique_ptr<Engine> make_multigrid_engine();
+/// la::Multigrid, with factors of what is exact; `direct` is how several processes factor.
+[[nodiscard]] std::unique_ptr<Engine> make_multigrid_engine(const MumpsOptions& direct);
 
 }  // namespace osculate::la

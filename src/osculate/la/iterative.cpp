@@ -13,7 +13,7 @@ namespace osculate::la {
 struct Iterative::Impl {
   Places places;
   Condensed direct;
-  MakeEngine make;
+  MumpsOptions options;
   std::unique_ptr<Engine> engine{};
   bool by_multigrid = false;        ///< the last matrix
   bool fresh = false;               ///< the coarser models are those of the last matrix
@@ -29,7 +29,7 @@ struct Iterative::Impl {
   Symmetry symmetry = Symmetry::unsymmetric;
   IterativeWork work;
 
-  Impl(MumpsOptions of, MakeEngine with) : direct(of), make(std::move(with)) {}
+  explicit Impl(const MumpsOptions& of) : direct(of), options(of) {}
   ~Impl() = default;
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
@@ -67,7 +67,7 @@ bool Iterative::Impl::begin_build() {
 /// False: the direct solver is to look at the matrix.
 bool Iterative::Impl::build(const SparseMatrix& k) {
   const bool believes = begin_build();
-  engine = make();
+  engine = make_multigrid_engine(options);
   return engine->build(k, symmetry, places) && (believes || resists_all());
 }
 
@@ -156,8 +156,7 @@ SolveStatus Iterative::Impl::solve(Eigen::VectorXd& rhs) {
   return report.status == SolveStatus::ok ? direct.solve(rhs) : report.status;
 }
 
-Iterative::Iterative(MumpsOptions direct, MakeEngine engine)
-    : impl_(std::make_unique<Impl>(direct, std::move(engine))) {}
+Iterative::Iterative(const MumpsOptions& direct) : impl_(std::make_unique<Impl>(direct)) {}
 Iterative::~Iterative() = default;
 
 void Iterative::place(Places places) {

@@ -36,7 +36,7 @@ namespace osculate::la {
 /// Tested by  tests/unit/la/test_iterative.cpp, tests/unit/deck/test_multigrid_models.cpp
 class Iterative final : public LinearSolver {
  public:
-  explicit Iterative(MumpsOptions direct = {}, MakeEngine engine = make_multigrid_engine);
+  explicit Iterative(const MumpsOptions& direct = {});
   ~Iterative() override;
   Iterative(const Iterative&) = delete;
   Iterative& operator=(const Iterative&) = delete;

@@ -15,10 +15,11 @@ namespace {
 
 /// One model. Its products are of entries in single precision: they are a preconditioner's.
 struct Level {
-  CompressedRows a;                            ///< for as long as a coarser model is made of it
+  CompressedRows a;  ///< for as long as a coarser model is made of it
+  Halo halo;
   GroupedRows<float> products, p, transposed;  ///< the last two lead to the next coarser one
-  GroupStarts start;
-  Eigen::MatrixXd near_null;
+  GroupStarts start;                           ///< of own unknowns
+  Eigen::MatrixXd near_null;                   ///< likewise
   BlockDiagonal inverse;
   double largest = 0;  ///< eigenvalue of D^-1 A
   Eigen::VectorXd x, r, d, t, of_coarse;
@@ -41,41 +42,46 @@ bool Level::prepare_smoother(const CompressedRows& matrix, int threads) {
 void Level::find_largest(int threads) {
   constexpr int rounds = 15;
   constexpr double more = 1.05;
-  Eigen::VectorXd v(start.back()), w;
+  Eigen::VectorXd v(halo.own()), w;
   std::uint32_t noise = 1;
   for (double& value : v) {
     noise = noise * 1664525U + 1013904223U;
     value = static_cast<double>(noise >> 8U) / (1U << 24U) - 0.5;
   }
   for (int i = 0; i < rounds; ++i) {
-    const double size = v.norm();
+    const double size = halo.norm(v);
     if (!(size > 0) || !std::isfinite(size)) break;
     v /= size;
+    v.conservativeResize(halo.here());
+    halo.update(v);
     products.multiply(v, threads, w);
     inverse.apply(w, threads, v);
-    largest = more * v.norm();
+    largest = more * halo.norm(v);
   }
 }
 
 /// Adds to the solution what a Chebyshev polynomial of D^-1 A makes of its residual `r`, which is
-/// brought up to date where it is wanted.
+/// brought up to date where it is wanted. Both are of own unknowns.
 void Level::smooth(Eigen::VectorXd& solution, bool residual_wanted, int threads) {
   constexpr int degree = 2;
   constexpr double above = 1.1, part = 10;  // of the spectrum, from the top
   const double high = above * largest, low = high / part;
   const double middle = 0.5 * (high + low), half = 0.5 * (high - low), sigma = middle / half;
   double rho = 1 / sigma;
+  const Index own = halo.own();
   inverse.apply(r, threads, t);
-  d = t / middle;
+  d.resize(halo.here());
+  d.head(own) = t / middle;
   for (int i = 1;; ++i) {
-    solution += d;
+    solution += d.head(own);
     if (i == degree && !residual_wanted) return;
+    halo.update(d);
     products.multiply(d, threads, t);
     r -= t;
     if (i == degree) return;
     const double next = 1 / (2 * sigma - rho);
     inverse.apply(r, threads, t);
-    d = next * rho * d + (2 * next / half) * t;
+    d.head(own) = next * rho * d.head(own) + (2 * next / half) * t;
     rho = next;
   }
 }
@@ -164,7 +170,7 @@ std::vector<char> left_out(const Level& level) {
 struct Multigrid::Impl {
   int threads = 1;
   std::vector<std::unique_ptr<Level>> levels{};
-  std::unique_ptr<Mumps> coarsest{};
+  std::unique_ptr<Mumps> coarsest{};  ///< on every process
   double entries = 0, finest_entries = 1;
 
   bool coarsen();
@@ -175,29 +181,41 @@ struct Multigrid::Impl {
 bool Multigrid::Impl::coarsen() {
   constexpr double strength = 0.05, hardly = 0.7, damping = 4.0 / 3;
   Level& fine = *levels.back();
+  const core::Ranks* const ranks = fine.halo.ranks();
+  const auto times_a = [&](const CompressedRows& b) {
+    return ranks ? product(fine.a, with_rows_of_others(b, fine.halo), threads)
+                 : product(fine.a, b, threads);
+  };
   const Aggregates aggregates = aggregate(fine.a, fine.start, left_out(fine), strength);
   Tentative next = tentative(fine, aggregates);
-  const Index unknowns = next.start.back();
-  if (unknowns == 0 || unknowns > hardly * static_cast<double>(fine.a.rows())) return false;
+  const std::vector<Index> first = dealt_out(ranks, next.start.back());
+  const Index unknowns = first.back();
+  if (unknowns == 0 || unknowns > hardly * static_cast<double>(fine.halo.everywhere()))
+    return false;
+  if (ranks) put_everywhere(next.p, first[static_cast<std::size_t>(ranks->rank())], unknowns);
   {
-    const CompressedRows spread = product(fine.a, next.p, threads);
+    const CompressedRows spread = times_a(next.p);
     const CompressedRows scaled = product(fine.inverse.as_matrix(), spread, threads);
     next.p = next.p - (damping / fine.largest) * scaled;
     next.p.makeCompressed();
   }
-  fine.p = GroupedRows<float>(next.p, fine.start);
-  CompressedRows a = product(fine.a, next.p, threads);
+  CompressedRows a = times_a(next.p);
   fine.a = {};
-  const CompressedRows transposed = next.p.transpose();
-  next.p = {};
-  a = product(transposed, a, threads);
-  fine.transposed = GroupedRows<float>(transposed, next.start);
+  {
+    const CompressedRows transposed = next.p.transpose();
+    a = summed_up(product(transposed, a, threads), ranks, first);
+  }
   auto coarse = std::make_unique<Level>();
+  coarse->halo = halo_of(ranks, first, {&a, &next.p});
+  const CompressedRows p = with_columns_here(std::move(next.p), coarse->halo);
+  fine.p = GroupedRows<float>(p, fine.start);
+  fine.transposed = GroupedRows<float>(p.transpose(), with_others(next.start, coarse->halo));
+  a = with_columns_here(std::move(a), coarse->halo);
   coarse->a.swap(a);
   coarse->start = std::move(next.start);
   coarse->near_null = std::move(next.near_null);
   fine.near_null = {};
-  entries += static_cast<double>(coarse->a.nonZeros());
+  entries += fine.halo.sum(static_cast<double>(coarse->a.nonZeros()));
   levels.push_back(std::move(coarse));
   return true;
 }
@@ -207,48 +225,61 @@ Multigrid::Multigrid(int threads) : impl_(std::make_unique<Impl>()) {
 }
 Multigrid::~Multigrid() = default;
 
-bool Multigrid::build(CompressedRows&& a, GroupStarts groups, Eigen::MatrixXd near_null) {
+bool Multigrid::build(CompressedRows&& a, Halo halo, GroupStarts groups,
+                      Eigen::MatrixXd near_null) {
   constexpr Index coarsest = 1500;
   constexpr std::size_t most_levels = 12;
   Impl& s = *impl_;
   forget();
   s.levels.push_back(std::make_unique<Level>());
   s.levels[0]->a.swap(a);  // matrices of Eigen are copied where they are moved
-  s.entries = s.finest_entries = static_cast<double>(s.levels[0]->a.nonZeros());
+  s.entries = s.finest_entries = halo.sum(static_cast<double>(s.levels[0]->a.nonZeros()));
+  s.levels[0]->halo = std::move(halo);
   s.levels[0]->start = std::move(groups);
   s.levels[0]->near_null = std::move(near_null);
-  while (s.levels.back()->a.rows() > coarsest && s.levels.size() < most_levels) {
+  while (s.levels.back()->halo.everywhere() > coarsest && s.levels.size() < most_levels) {
     Level& last = *s.levels.back();
     if (!last.prepare_smoother(last.a, s.threads)) return false;
     if (!s.coarsen()) break;
   }
   s.coarsest = std::make_unique<Mumps>();
-  const FactorReport report =
-      s.coarsest->factor(stored(s.levels.back()->a), 0, Symmetry::unsymmetric);
+  const FactorReport report = s.coarsest->factor(
+      stored(gathered(s.levels.back()->a, s.levels.back()->halo)), 0, Symmetry::unsymmetric);
   s.levels.back()->a = {};
-  return report.status == SolveStatus::ok;
+  return s.levels.back()->halo.all(report.status == SolveStatus::ok);
 }
 
-bool Multigrid::refresh(const CompressedRows& a) {
+bool Multigrid::refresh(const CompressedRows& a, Halo halo) {
   Impl& s = *impl_;
-  if (!s.coarsest || s.levels.size() < 2 || s.levels[0]->start.back() != a.rows()) return false;
+  const bool same = s.coarsest && s.levels.size() > 1 && s.levels[0]->start.back() == a.rows();
+  if (!halo.all(same)) return false;
+  s.levels[0]->halo = std::move(halo);
   return s.levels[0]->prepare_smoother(a, s.threads);
 }
 
 bool Multigrid::Impl::cycle(std::size_t level, const Eigen::VectorXd& b, Eigen::VectorXd& x) {
-  if (level + 1 == levels.size()) {
-    x = b;
-    return coarsest->solve(x) == SolveStatus::ok;
-  }
   Level& fine = *levels[level];
+  if (level + 1 == levels.size()) {
+    Eigen::VectorXd all = fine.halo.gathered(b);
+    if (coarsest->solve(all) != SolveStatus::ok) return false;
+    x = all.segment(fine.halo.begin(), fine.halo.own());
+    return true;
+  }
+  const Halo& coarse = levels[level + 1]->halo;
   x.setZero(b.size());
   fine.r = b;
   fine.smooth(x, true, threads);
   Eigen::VectorXd rest;
   fine.transposed.multiply(fine.r, threads, rest);
+  coarse.add_up(rest);
+  rest.conservativeResize(coarse.own());
   if (!cycle(level + 1, rest, fine.of_coarse)) return false;
+  fine.of_coarse.conservativeResize(coarse.here());
+  coarse.update(fine.of_coarse);
   fine.p.multiply(fine.of_coarse, threads, fine.d);
   x += fine.d;
+  fine.d.conservativeResize(fine.halo.here());
+  fine.halo.update(fine.d);
   fine.products.multiply(fine.d, threads, fine.t);
   fine.r -= fine.t;
   fine.smooth(x, false, threads);
@@ -259,7 +290,7 @@ bool Multigrid::apply(Eigen::VectorXd& rhs) {
   Eigen::VectorXd x;
   if (!impl_->coarsest || !impl_->cycle(0, rhs, x)) return false;
   rhs = std::move(x);
-  return rhs.allFinite();
+  return impl_->levels[0]->halo.all(rhs.allFinite());
 }
 
 double Multigrid::complexity() const { return impl_->entries / impl_->finest_entries; }

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "osculate/la/aggregates.hpp"
+#include "osculate/la/halo.hpp"
 
 namespace osculate::la {
 
@@ -14,7 +15,10 @@ namespace osculate::la {
 ///            the near null vectors in each aggregate, D the diagonal blocks, rho the largest
 ///            eigenvalue of D^-1 A . Models are made in double precision, the cycle multiplies with
 ///            their entries rounded to single precision (vectors and sums are double: it is linear)
-/// Contract   the bits depend on the matrix, groups and near null vectors alone
+/// Several processes make models of aggregates of their own nodes; the coarsest is in each of them.
+///
+/// Contract   the bits depend on the matrix, groups and near null vectors alone (and on how they
+///            are dealt out)
 /// Source     P. Vanek, J. Mandel, M. Brezina, Computing 56 (1996) 179-196;
 ///            M. Adams et al., J. Comput. Phys. 188 (2003) 593-610 (Chebyshev)
 /// Tested by  tests/unit/la/test_multigrid.cpp
@@ -27,13 +31,14 @@ class Multigrid {
 
   /// Builds the coarser models. False: it cannot be, as where a body is free to move.
   ///
-  /// Shapes     near_null: a row per unknown. Unknowns of rows of zeros are in no coarser model;
-  ///            groups whose block is not positive definite are not smoothed either
-  bool build(CompressedRows&& a, GroupStarts groups, Eigen::MatrixXd near_null);
+  /// Shapes     a: the rows of this process, with the columns of `halo`; near_null: a row per own
+  ///            unknown. Unknowns of rows of zeros are in no coarser model; groups whose block is
+  ///            not positive definite are not smoothed either
+  bool build(CompressedRows&& a, Halo halo, GroupStarts groups, Eigen::MatrixXd near_null);
   /// Takes another matrix of the same unknowns, near to the one that it was built of: the coarser
   /// models stay. False: it has to be built.
-  bool refresh(const CompressedRows& a);
-  /// One cycle from zero. False: no numbers came out.
+  bool refresh(const CompressedRows& a, Halo halo);
+  /// One cycle from zero, on own unknowns. False: no numbers came out.
   bool apply(Eigen::VectorXd& rhs_in_solution_out);
   /// Entries of all matrices over those of the finest.
   [[nodiscard]] double complexity() const;

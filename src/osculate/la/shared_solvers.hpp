@@ -1,5 +1,4 @@
 #pragma once
-#include "osculate/la/engine.hpp"
 #include "osculate/la/mumps.hpp"
 
 namespace osculate::la {
@@ -7,7 +6,6 @@ namespace osculate::la {
 /// How several processes solve together.
 struct SharedSolvers {
   SharedMumps mumps{};
-  Engine* (*engine)(const core::Ranks& ranks) = nullptr;  ///< a new one
 };
 
 /// What the library of several processes (libosculate-mpi) hands out: they have begun then.

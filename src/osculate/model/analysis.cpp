@@ -395,9 +395,7 @@ void share(const Together& together, AnalysisOptions& options) {
     const la::MumpsOptions direct{.shared = together.solvers.mumps};
     std::unique_ptr<la::LinearSolver> solver;
     if (iterates)
-      solver = std::make_unique<la::Iterative>(direct, [together] {
-        return std::unique_ptr<la::Engine>(together.solvers.engine(*together.ranks));
-      });
+      solver = std::make_unique<la::Iterative>(direct);
     else
       solver = std::make_unique<la::Condensed>(direct);
     return solver;

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "osculate/la/shared_solvers.hpp"
-#include "osculate/mpi/petsc_engine.hpp"
 
 namespace osculate::mpi {
 namespace {
@@ -36,10 +35,24 @@ class World final : public core::Ranks {
     MPI_Gatherv(mine.data(), size, MPI_INT, all.data(), sizes.data(), starts.data(), MPI_INT, 0,
                 MPI_COMM_WORLD);
   }
-  void finish() const override {
-    end_petsc();
-    MPI_Finalize();
+  void exchange(std::span<const double> values, std::span<const int> to, std::span<double> received,
+                std::span<const int> from) const override {
+    std::vector<MPI_Request> open;
+    const auto each = [&](std::span<const int> counts, const auto& begin) {
+      int at = 0;
+      for (int p = 0; p < count_; at += counts[static_cast<std::size_t>(p++)])
+        if (const int count = counts[static_cast<std::size_t>(p)]; count > 0)
+          begin(p, at, count, &open.emplace_back());
+    };
+    each(from, [&](int p, int at, int count, MPI_Request* request) {
+      MPI_Irecv(received.data() + at, count, MPI_DOUBLE, p, 0, MPI_COMM_WORLD, request);
+    });
+    each(to, [&](int p, int at, int count, MPI_Request* request) {
+      MPI_Isend(values.data() + at, count, MPI_DOUBLE, p, 0, MPI_COMM_WORLD, request);
+    });
+    MPI_Waitall(static_cast<int>(open.size()), open.data(), MPI_STATUSES_IGNORE);
   }
+  void finish() const override { MPI_Finalize(); }
   [[noreturn]] void end_all(int code) const override {
     MPI_Abort(MPI_COMM_WORLD, code);
     __builtin_unreachable();
@@ -65,5 +78,4 @@ extern "C" void osculate_begin_ranks(osculate::la::RanksLibrary& library) {
   library.ranks = &world;
   library.solvers.mumps = {osculate::mpi::call_mumps,
                            static_cast<int>(MPI_Comm_c2f(MPI_COMM_WORLD))};
-  library.solvers.engine = osculate::mpi::make_engine;
 }

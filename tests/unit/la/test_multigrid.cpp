@@ -121,8 +121,8 @@ TEST(BlockDiagonal, InvertsBlocksAndLeavesOutThoseThatAreNotPositiveDefinite) {
 double convergence(const ElasticBlock& block, int threads = 1) {
   const CompressedRows a = compressed(block.matrix(), Symmetry::unsymmetric);
   Multigrid cycle(threads);
-  EXPECT_TRUE(
-      cycle.build(CompressedRows(a), groups_of_three(block.unknowns()), block.rigid_motions()));
+  EXPECT_TRUE(cycle.build(CompressedRows(a), Halo(block.unknowns()),
+                          groups_of_three(block.unknowns()), block.rigid_motions()));
   Eigen::VectorXd e = noise(block.unknowns());
   for (Index i = 0; i < block.unknowns(); ++i)
     if (block.held(i)) e[i] = 0;
@@ -148,8 +148,8 @@ TEST(Multigrid, IsTheInverseWhereThereIsOneLevel) {
   const ElasticBlock block(4, 4, 4);
   const CompressedRows a = compressed(block.matrix(), Symmetry::unsymmetric);
   Multigrid cycle(1);
-  ASSERT_TRUE(
-      cycle.build(CompressedRows(a), groups_of_three(block.unknowns()), block.rigid_motions()));
+  ASSERT_TRUE(cycle.build(CompressedRows(a), Halo(block.unknowns()),
+                          groups_of_three(block.unknowns()), block.rigid_motions()));
   EXPECT_EQ(cycle.levels(), 1);
   Eigen::VectorXd x = noise(block.unknowns());
   const Eigen::VectorXd b = x;
@@ -161,10 +161,10 @@ TEST(Multigrid, IsSymmetricAndItsBitsDoNotDependOnThreads) {
   const ElasticBlock block(9, 10, 11);
   const CompressedRows a = compressed(block.matrix(), Symmetry::unsymmetric);
   Multigrid one(1), two(2);
-  ASSERT_TRUE(
-      one.build(CompressedRows(a), groups_of_three(block.unknowns()), block.rigid_motions()));
-  ASSERT_TRUE(
-      two.build(CompressedRows(a), groups_of_three(block.unknowns()), block.rigid_motions()));
+  ASSERT_TRUE(one.build(CompressedRows(a), Halo(block.unknowns()),
+                        groups_of_three(block.unknowns()), block.rigid_motions()));
+  ASSERT_TRUE(two.build(CompressedRows(a), Halo(block.unknowns()),
+                        groups_of_three(block.unknowns()), block.rigid_motions()));
   EXPECT_GE(one.levels(), 2);
   EXPECT_LT(one.complexity(), 1.5);
   const Eigen::VectorXd u = noise(block.unknowns()), v = u.reverse();
@@ -178,8 +178,8 @@ TEST(Multigrid, SaysThatAFreeBodyHasNoCoarsestModel) {
   const ElasticBlock block(8, 8, 8, false);
   const CompressedRows a = compressed(block.matrix(), Symmetry::unsymmetric);
   Multigrid cycle(1);
-  EXPECT_FALSE(
-      cycle.build(CompressedRows(a), groups_of_three(block.unknowns()), block.rigid_motions()));
+  EXPECT_FALSE(cycle.build(CompressedRows(a), Halo(block.unknowns()),
+                           groups_of_three(block.unknowns()), block.rigid_motions()));
   Eigen::VectorXd x = noise(block.unknowns());
   cycle.forget();
   EXPECT_FALSE(cycle.apply(x));

@@ -1,0 +1,33 @@
+#pragma once
+#include <vector>
+
+#include "osculate/la/halo.hpp"
+
+namespace osculate::la {
+
+/// Unknowns of a matrix of several processes, numbered one process after the other, in their order.
+/// Of one process alone (no ranks) nothing is kept: all numbers are those of the unknowns.
+///
+/// Shapes     number: of each unknown; unknown: of each number; first: as of a Halo
+struct Dealt {
+  const core::Ranks* ranks = nullptr;
+  std::vector<Index> number, unknown, first;
+
+  /// Whether the row of the unknown is here.
+  [[nodiscard]] bool is_here(Index of) const {
+    if (!ranks) return true;
+    const auto me = static_cast<std::size_t>(ranks->rank());
+    return number[as_size(of)] >= first[me] && number[as_size(of)] < first[me + 1];
+  }
+};
+
+/// As the rows of a matrix are, of which none is empty.
+[[nodiscard]] Dealt dealt_as(const SparseMatrix& k);
+/// The rows of this process, both triangles, without zeros beside the diagonal; columns have their
+/// numbers.
+[[nodiscard]] CompressedRows own_rows(const SparseMatrix& k, Symmetry symmetry, const Dealt& dealt);
+/// The matrix of which they are the rows.
+[[nodiscard]] SparseMatrix matrix_of(const CompressedRows& rows, const Halo& halo,
+                                     const Dealt& dealt);
+
+}  // namespace osculate::la
