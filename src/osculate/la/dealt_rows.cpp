@@ -28,58 +28,112 @@ Dealt dealt_as(const SparseMatrix& k) {
 
 namespace {
 
-using NumberedRow = std::vector<std::pair<Index, double>>;
+struct Entry {
+  Index column = 0;
+  double value = 0;
+};
 
-CompressedRows sorted_rows(std::vector<NumberedRow>& rows, Index columns) {
-  std::size_t entries = 0;
-  for (const NumberedRow& row : rows) entries += row.size();
-  CompressedRows out(static_cast<Index>(rows.size()), columns);
-  out.resizeNonZeros(static_cast<Index>(entries));
-  Index next = 0;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    std::ranges::sort(rows[i]);
-    for (const auto& [column, value] : rows[i]) {
+/// Calls take(row, column, value) for the entries of rows here, and of the rows of others that
+/// these say: of a symmetric matrix the upper triangle counts for both.
+template <class Take>
+void for_each_entry(const SparseMatrix& k, Symmetry symmetry, const Take& take) {
+  const bool both = symmetry != Symmetry::unsymmetric;
+  for (Index i = 0; i < k.n; ++i)
+    for (Index e = k.row_start[as_size(i)]; e < k.row_start[as_size(i) + 1]; ++e) {
+      const Index j = k.column[as_size(e)];
+      if ((both && j < i) || (k.value[as_size(e)] == 0 && i != j)) continue;
+      take(i, j, k.value[as_size(e)]);
+      if (both && j > i) take(j, i, k.value[as_size(e)]);
+    }
+}
+
+/// What others say of rows here: their numbers here, unknowns of the columns, values.
+std::vector<double> said_by_others(const SparseMatrix& k, Symmetry symmetry, const Dealt& dealt) {
+  if (symmetry == Symmetry::unsymmetric) return {};
+  std::vector<std::vector<double>> to(dealt.first.size() - 1);
+  for_each_entry(k, symmetry, [&](Index i, Index j, double value) {
+    if (dealt.is_here(i)) return;
+    const Index number = dealt.number[as_size(i)];
+    const auto process = std::ranges::upper_bound(dealt.first, number) - dealt.first.begin() - 1;
+    std::vector<double>& of = to[static_cast<std::size_t>(process)];
+    of.insert(of.end(), {static_cast<double>(number - *(dealt.first.begin() + process)),
+                         static_cast<double>(j), value});
+  });
+  return exchanged(*dealt.ranks, to);
+}
+
+/// Own rows; columns are unknowns, in their order but for those that others have said.
+CompressedRows own_rows(const SparseMatrix& k, Symmetry symmetry, const Dealt& dealt, Index begin,
+                        Index own) {
+  const std::vector<double> said = said_by_others(k, symmetry, dealt);
+  std::vector<Index> next(as_size(own) + 1, 0);
+  for_each_entry(k, symmetry, [&](Index i, Index, double) {
+    if (dealt.is_here(i)) ++next[as_size(dealt.number[as_size(i)] - begin) + 1];
+  });
+  for (std::size_t e = 0; e < said.size(); e += 3) ++next[static_cast<std::size_t>(said[e]) + 1];
+  for (std::size_t i = 1; i < next.size(); ++i) next[i] += next[i - 1];
+  CompressedRows a(own, k.n);
+  a.resizeNonZeros(next.back());
+  std::ranges::copy(next, a.outerIndexPtr());
+  const auto put = [&](Index row, Index column, double value) {
+    const Index at = next[as_size(row)]++;
+    a.innerIndexPtr()[at] = column;
+    a.valuePtr()[at] = value;
+  };
+  for_each_entry(k, symmetry, [&](Index i, Index j, double value) {
+    if (dealt.is_here(i)) put(dealt.number[as_size(i)] - begin, j, value);
+  });
+  for (std::size_t e = 0; e < said.size(); e += 3)
+    put(static_cast<Index>(said[e]), static_cast<Index>(said[e + 1]), said[e + 2]);
+  return a;
+}
+
+/// Columns that are unknowns become those here, own ones first.
+CompressedRows translated(const CompressedRows& rows, const std::vector<Index>& here,
+                          const Halo& halo) {
+  CompressedRows out(rows.rows(), halo.here());
+  out.resizeNonZeros(rows.nonZeros());
+  std::copy_n(rows.outerIndexPtr(), rows.rows() + 1, out.outerIndexPtr());
+  std::vector<Entry> others;
+  for (Index i = 0; i < rows.rows(); ++i) {
+    Index next = rows.outerIndexPtr()[i];
+    others.clear();
+    const auto put = [&](Index column, double value) {
       out.innerIndexPtr()[next] = column;
       out.valuePtr()[next++] = value;
-    }
-    out.outerIndexPtr()[i + 1] = next;
-    rows[i] = {};
+    };
+    for (CompressedRows::InnerIterator entry(rows, i); entry; ++entry)
+      if (const Index j = here[as_size(static_cast<Index>(entry.col()))]; j < halo.own())
+        put(j, entry.value());
+      else
+        others.push_back({j, entry.value()});
+    std::ranges::sort(others, {}, &Entry::column);
+    for (const Entry& other : others) put(other.column, other.value);
   }
   return out;
 }
 
 }  // namespace
 
-CompressedRows own_rows(const SparseMatrix& k, Symmetry symmetry, const Dealt& dealt) {
-  if (!dealt.ranks) return compressed(k, symmetry);
-  const bool both = symmetry != Symmetry::unsymmetric;  // the upper triangle counts for both
+RowsHere rows_here(const SparseMatrix& k, Symmetry symmetry, const Dealt& dealt) {
+  if (!dealt.ranks) return {compressed(k, symmetry), Halo(k.n)};
   const auto me = static_cast<std::size_t>(dealt.ranks->rank());
-  const Index begin = dealt.first[me], end = dealt.first[me + 1];
-  std::vector<NumberedRow> rows(as_size(end - begin));
-  std::vector<std::vector<double>> to(dealt.first.size() - 1);  // number of row, of column, value
-  const auto put = [&](Index i, Index j, double value) {
-    const Index row = dealt.number[as_size(i)], column = dealt.number[as_size(j)];
-    if (row >= begin && row < end) {
-      rows[as_size(row - begin)].emplace_back(column, value);
-      return;
-    }
-    const auto after = std::ranges::upper_bound(dealt.first, row);
-    std::vector<double>& of = to[static_cast<std::size_t>(after - dealt.first.begin()) - 1];
-    of.insert(of.end(), {static_cast<double>(row), static_cast<double>(column), value});
-  };
-  for (Index i = 0; i < k.n; ++i)
-    for (Index e = k.row_start[as_size(i)]; e < k.row_start[as_size(i) + 1]; ++e) {
-      const Index j = k.column[as_size(e)];
-      const double value = k.value[as_size(e)];
-      if ((both && j < i) || (value == 0 && i != j)) continue;
-      put(i, j, value);
-      if (both && j > i) put(j, i, value);
-    }
-  const std::vector<double> taken = exchanged(*dealt.ranks, to);
-  for (std::size_t e = 0; e < taken.size(); e += 3)
-    rows[as_size(static_cast<Index>(taken[e]) - begin)].emplace_back(
-        static_cast<Index>(taken[e + 1]), taken[e + 2]);
-  return sorted_rows(rows, k.n);
+  const Index begin = dealt.first[me], own = dealt.first[me + 1] - begin;
+  const CompressedRows rows = own_rows(k, symmetry, dealt, begin, own);
+  constexpr Index unseen = -1, seen = -2;
+  std::vector<Index> here(as_size(k.n), unseen), others;
+  for (Index i = 0; i < own; ++i) here[as_size(dealt.unknown[as_size(begin + i)])] = i;
+  for (Eigen::Index e = 0; e < rows.nonZeros(); ++e) {
+    const Index u = rows.innerIndexPtr()[e];
+    if (here[as_size(u)] != unseen) continue;
+    here[as_size(u)] = seen;
+    others.push_back(dealt.number[as_size(u)]);
+  }
+  std::ranges::sort(others);
+  for (std::size_t o = 0; o < others.size(); ++o)
+    here[as_size(dealt.unknown[as_size(others[o])])] = own + static_cast<Index>(o);
+  Halo halo(dealt.ranks, dealt.first, std::move(others));
+  return {translated(rows, here, halo), halo};
 }
 
 SparseMatrix matrix_of(const CompressedRows& rows, const Halo& halo, const Dealt& dealt) {
@@ -89,16 +143,16 @@ SparseMatrix matrix_of(const CompressedRows& rows, const Halo& halo, const Dealt
   k.n = halo.everywhere();
   k.row_start = {0};
   Index next = 0;
-  NumberedRow row;
+  std::vector<Entry> row;
   for (Index u = 0; u < k.n; ++u) {
     row.clear();
     if (dealt.is_here(u))
       for (CompressedRows::InnerIterator entry(rows, dealt.number[as_size(u)] - halo.begin());
            entry; ++entry)
-        row.emplace_back(
-            dealt.unknown[as_size(halo.number_everywhere(static_cast<Index>(entry.col())))],
-            entry.value());
-    std::ranges::sort(row);
+        row.push_back(
+            {dealt.unknown[as_size(halo.number_everywhere(static_cast<Index>(entry.col())))],
+             entry.value()});
+    std::ranges::sort(row, {}, &Entry::column);
     for (const auto& [column, value] : row) {
       k.column[as_size(next)] = column;
       k.value[as_size(next++)] = value;

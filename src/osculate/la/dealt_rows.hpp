@@ -23,9 +23,12 @@ struct Dealt {
 
 /// As the rows of a matrix are, of which none is empty.
 [[nodiscard]] Dealt dealt_as(const SparseMatrix& k);
-/// The rows of this process, both triangles, without zeros beside the diagonal; columns have their
-/// numbers.
-[[nodiscard]] CompressedRows own_rows(const SparseMatrix& k, Symmetry symmetry, const Dealt& dealt);
+/// The rows of this process, both triangles, without zeros beside the diagonal.
+struct RowsHere {
+  CompressedRows a;  ///< with columns of the halo
+  Halo halo;
+};
+[[nodiscard]] RowsHere rows_here(const SparseMatrix& k, Symmetry symmetry, const Dealt& dealt);
 /// The matrix of which they are the rows.
 [[nodiscard]] SparseMatrix matrix_of(const CompressedRows& rows, const Halo& halo,
                                      const Dealt& dealt);

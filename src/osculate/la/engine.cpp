@@ -151,8 +151,8 @@ class MultigridEngine final : public Engine {
     a_ = {};
     part_ = {};
     part_.dealt = dealt_as(k);
-    if (!build(rows_here(k, symmetry), symmetry, places)) return false;
-    take(rows_here(k, symmetry), places);  // not before: the coarser models take most memory
+    if (!build(take_part(k, symmetry), symmetry, places)) return false;
+    take(take_part(k, symmetry), places);  // not before: the coarser models take most memory
     return true;
   }
   bool refresh(const SparseMatrix& k, Symmetry symmetry, const Places& places) override {
@@ -160,7 +160,7 @@ class MultigridEngine final : public Engine {
     symmetry_ = symmetry;
     if (!bodies_ || part_.dealt.ranks != k.ranks) return false;
     a_ = {};
-    const CompressedRows a = rows_here(k, symmetry);
+    const CompressedRows a = take_part(k, symmetry);
     take(a, places);
     return bodies_->refresh(a, part_.halo) && exact_.factor(a, places, part_, symmetry, direct_);
   }
@@ -187,14 +187,15 @@ class MultigridEngine final : public Engine {
 
  private:
   /// Rows of this process with columns here.
-  CompressedRows rows_here(const SparseMatrix& k, Symmetry symmetry) {
-    const Dealt& dealt = part_.dealt;
-    CompressedRows a = own_rows(k, symmetry, dealt);
-    part_.halo = halo_of(dealt.ranks, dealt.ranks ? dealt.first : std::vector<Index>{0, k.n}, {&a});
+  CompressedRows take_part(const SparseMatrix& k, Symmetry symmetry) {
+    RowsHere rows = rows_here(k, symmetry, part_.dealt);
+    part_.halo = std::move(rows.halo);
     part_.unknowns.clear();
-    for (Index i = 0; dealt.ranks && i < part_.halo.here(); ++i)
-      part_.unknowns.push_back(dealt.unknown[as_size(part_.halo.number_everywhere(i))]);
-    return with_columns_here(std::move(a), part_.halo);
+    for (Index i = 0; part_.dealt.ranks && i < part_.halo.here(); ++i)
+      part_.unknowns.push_back(part_.dealt.unknown[as_size(part_.halo.number_everywhere(i))]);
+    CompressedRows a;
+    a.swap(rows.a);  // moved, these would be copied
+    return a;
   }
   bool build(CompressedRows&& a, Symmetry symmetry, const Places& places) {
     threads_ = places.threads;

@@ -65,9 +65,9 @@ struct Here {
   CompressedRows a;
 
   Here(const SparseMatrix& k, Symmetry symmetry) : dealt(dealt_as(k)) {
-    CompressedRows rows = own_rows(k, symmetry, dealt);
-    halo = halo_of(k.ranks, dealt.first, {&rows});
-    a = with_columns_here(std::move(rows), halo);
+    RowsHere rows = rows_here(k, symmetry, dealt);
+    halo = std::move(rows.halo);
+    a.swap(rows.a);
   }
   [[nodiscard]] Eigen::VectorXd own(const Eigen::VectorXd& all) const {
     Eigen::VectorXd out(halo.here());
