@@ -18,9 +18,10 @@ struct Aggregates {
 /// one of them, then the rest.
 ///
 /// Formula    g and h are neighbours where |A_gh|_F^2 > strength^2 |A_gg|_F |A_hh|_F
-/// Shapes     left_out: one per group; columns beyond the rows of `a` are of other processes, whose
-/// groups are not taken Source     P. Vanek, J. Mandel, M. Brezina, Computing 56 (1996) 179-196,
-/// section 5.1 Tested by  tests/unit/la/test_multigrid.cpp
+/// Shapes     left_out: one per group; columns beyond the rows of `a`, of other processes, do not
+///            count
+/// Source     P. Vanek, J. Mandel, M. Brezina, Computing 56 (1996) 179-196, section 5.1
+/// Tested by  tests/unit/la/test_multigrid.cpp
 [[nodiscard]] Aggregates aggregate(const CompressedRows& a, const GroupStarts& start,
                                    std::span<const char> left_out, double strength);
 

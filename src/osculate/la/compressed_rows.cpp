@@ -94,7 +94,7 @@ CompressedRows product(const CompressedRows& a, const CompressedRows& b, int thr
     for (Index i = 0; i < part.rows(); ++i)
       out.outerIndexPtr()[row++] = next + part.outerIndexPtr()[i];
     next += count;
-    part = {};
+    release(part);
   }
   out.outerIndexPtr()[rows] = next;
   return out;

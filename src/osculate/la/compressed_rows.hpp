@@ -8,6 +8,15 @@ namespace osculate::la {
 
 using CompressedRows = Eigen::SparseMatrix<double, Eigen::RowMajor, Index>;
 
+/// Gives the memory back, which an assignment of nothing does not.
+inline void release(CompressedRows& a) { CompressedRows().swap(a); }
+/// What stands in `a`, without a copy, which a move would be.
+[[nodiscard]] inline CompressedRows taken(CompressedRows& a) {
+  CompressedRows out;
+  out.swap(a);
+  return out;
+}
+
 [[nodiscard]] constexpr std::size_t as_size(Index i) { return static_cast<std::size_t>(i); }
 
 /// The matrix with both triangles; entries that are zero are left out, but for the diagonal. The

@@ -1,6 +1,8 @@
 #include "osculate/la/dealt_rows.hpp"
 
 #include <algorithm>
+#include <numeric>
+#include <stdexcept>
 #include <utility>
 
 namespace osculate::la {
@@ -13,17 +15,29 @@ Dealt dealt_as(const SparseMatrix& k) {
   for (Index i = 0; i < k.n; ++i)
     if (k.row_start[as_size(i)] < k.row_start[as_size(i) + 1]) owner[as_size(i)] = k.ranks->rank();
   k.ranks->largest(owner);
-  dealt.number.resize(as_size(k.n));
-  for (int p = 0; p < k.ranks->count(); ++p) {
-    dealt.first.push_back(static_cast<Index>(dealt.unknown.size()));
-    for (Index i = 0; i < k.n; ++i)
-      if (static_cast<int>(owner[as_size(i)]) == p) {
-        dealt.number[as_size(i)] = static_cast<Index>(dealt.unknown.size());
-        dealt.unknown.push_back(i);
-      }
+  dealt.first.assign(static_cast<std::size_t>(k.ranks->count()) + 1, 0);
+  for (const double process : owner) {
+    if (process < 0) throw std::logic_error("a row of the matrix is on no process");
+    ++dealt.first[static_cast<std::size_t>(process) + 1];
   }
-  dealt.first.push_back(static_cast<Index>(dealt.unknown.size()));
+  std::partial_sum(dealt.first.begin(), dealt.first.end(), dealt.first.begin());
+  std::vector<Index> next = dealt.first;
+  dealt.number.resize(as_size(k.n));
+  dealt.unknown.resize(as_size(k.n));
+  for (Index i = 0; i < k.n; ++i) {
+    dealt.number[as_size(i)] = next[static_cast<std::size_t>(owner[as_size(i)])]++;
+    dealt.unknown[as_size(dealt.number[as_size(i)])] = i;
+  }
   return dealt;
+}
+
+bool deals(const Dealt& dealt, const SparseMatrix& k) {
+  if (dealt.ranks != k.ranks) return false;
+  if (!k.ranks) return true;
+  bool same = dealt.number.size() == as_size(k.n);
+  for (Index i = 0; same && i < k.n; ++i)
+    same = dealt.is_here(i) == (k.row_start[as_size(i)] < k.row_start[as_size(i) + 1]);
+  return k.ranks->all(same);
 }
 
 namespace {

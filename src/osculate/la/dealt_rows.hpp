@@ -23,6 +23,8 @@ struct Dealt {
 
 /// As the rows of a matrix are, of which none is empty.
 [[nodiscard]] Dealt dealt_as(const SparseMatrix& k);
+/// Whether the rows of this matrix are dealt out so.
+[[nodiscard]] bool deals(const Dealt& dealt, const SparseMatrix& k);
 /// The rows of this process, both triangles, without zeros beside the diagonal.
 struct RowsHere {
   CompressedRows a;  ///< with columns of the halo

@@ -10,26 +10,6 @@
 
 namespace osculate::la {
 
-Eigen::MatrixXd rigid_motions(const Places& places, const std::vector<char>& alone) {
-  const int dim = places.dimension;
-  const auto n = static_cast<Index>(places.node.size());
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& x : places.place) middle += x / n;
-  double size = 0;
-  for (const Eigen::Vector3d& x : places.place) size = std::max(size, (x - middle).norm());
-  if (!(size > 0)) size = 1;
-  Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(n, dim == 3 ? 6 : 3);
-  for (Index i = 0; i < n; ++i) {
-    if (places.node[as_size(i)] < 0 || alone[as_size(i)] != 0) continue;
-    const int k = places.direction[as_size(i)];
-    const Eigen::Vector3d x = (places.place[as_size(i)] - middle) / size;
-    motions(i, k) = 1;
-    for (int axis = dim == 3 ? 0 : 2; axis < 3; ++axis)
-      motions(i, dim == 3 ? 3 + axis : 2) = Eigen::Vector3d::Unit(axis).cross(x)[k];
-  }
-  return motions;
-}
-
 namespace {
 
 /// Where the unknowns of the rows here are.
@@ -63,16 +43,38 @@ GroupStarts groups_of(const Places& places, const Part& part) {
   return start;
 }
 
-/// Rigid motions of own unknowns.
-Eigen::MatrixXd own_motions(const CompressedRows& a, const Places& places, const Part& part) {
-  std::vector<char> alone(places.node.size(), 1);
+std::vector<char> standing_alone(const CompressedRows& a) {
+  std::vector<char> alone(as_size(static_cast<Index>(a.rows())), 1);
   for (Index i = 0; i < a.rows(); ++i)
     for (CompressedRows::InnerIterator entry(a, i); entry; ++entry)
-      if (entry.col() != i) alone[as_size(part.unknown(i))] = 0;
-  Eigen::MatrixXd motions = rigid_motions(places, alone);
-  if (!part.dealt.ranks) return motions;
-  const std::vector<Index> own(part.unknowns.begin(), part.unknowns.begin() + part.halo.own());
-  return motions(own, Eigen::all);
+      if (entry.col() != i) alone[as_size(i)] = 0;
+  return alone;
+}
+
+/// Translations of the nodes of own unknowns, and rotations about the middle of all. Zero of an
+/// unknown that has nothing to do with others, as where its motion is prescribed, or of no node.
+///
+/// Shapes     a row per own unknown, three columns in the plane and six in space
+Eigen::MatrixXd own_motions(const CompressedRows& a, const Places& places, const Part& part) {
+  const int dim = places.dimension;
+  const auto n = static_cast<Index>(places.node.size());
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& x : places.place) middle += x / n;
+  double size = 0;
+  for (const Eigen::Vector3d& x : places.place) size = std::max(size, (x - middle).norm());
+  if (!(size > 0)) size = 1;
+  const std::vector<char> alone = standing_alone(a);
+  Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(a.rows(), dim == 3 ? 6 : 3);
+  for (Index i = 0; i < a.rows(); ++i) {
+    const std::size_t u = as_size(part.unknown(i));
+    if (places.node[u] < 0 || alone[as_size(i)] != 0) continue;
+    const int k = places.direction[u];
+    const Eigen::Vector3d x = (places.place[u] - middle) / size;
+    motions(i, k) = 1;
+    for (int axis = dim == 3 ? 0 : 2; axis < 3; ++axis)
+      motions(i, dim == 3 ? 3 + axis : 2) = Eigen::Vector3d::Unit(axis).cross(x)[k];
+  }
+  return motions;
 }
 
 /// What is solved for directly: rows and columns of the matrix that are of contact.
@@ -113,11 +115,6 @@ class Exact {
     own -= balanced;
   }
   void add(const Eigen::VectorXd& few, Eigen::VectorXd& x) const { x(unknowns_) += few; }
-  void forget() {
-    direct_.reset();
-    unknowns_.clear();
-    columns_ = {};
-  }
 
  private:
   [[nodiscard]] SparseMatrix few_rows(const Part& part) const {
@@ -158,7 +155,7 @@ class MultigridEngine final : public Engine {
   bool refresh(const SparseMatrix& k, Symmetry symmetry, const Places& places) override {
     threads_ = places.threads;
     symmetry_ = symmetry;
-    if (!bodies_ || part_.dealt.ranks != k.ranks) return false;
+    if (!bodies_ || !deals(part_.dealt, k)) return false;
     a_ = {};
     const CompressedRows a = take_part(k, symmetry);
     take(a, places);
@@ -179,11 +176,6 @@ class MultigridEngine final : public Engine {
   [[nodiscard]] SparseMatrix matrix() const override {
     return matrix_of(a_.as_rows(), part_.halo, part_.dealt);
   }
-  void forget() override {
-    exact_.forget();
-    bodies_.reset();
-    a_ = {};
-  }
 
  private:
   /// Rows of this process with columns here.
@@ -193,9 +185,7 @@ class MultigridEngine final : public Engine {
     part_.unknowns.clear();
     for (Index i = 0; part_.dealt.ranks && i < part_.halo.here(); ++i)
       part_.unknowns.push_back(part_.dealt.unknown[as_size(part_.halo.number_everywhere(i))]);
-    CompressedRows a;
-    a.swap(rows.a);  // moved, these would be copied
-    return a;
+    return taken(rows.a);
   }
   bool build(CompressedRows&& a, Symmetry symmetry, const Places& places) {
     threads_ = places.threads;
@@ -210,12 +200,11 @@ class MultigridEngine final : public Engine {
     diagonal_ = part_.all(Eigen::VectorXd(a.diagonal()).cwiseAbs());
   }
   bool precondition(Eigen::VectorXd& r) {
-    Eigen::VectorXd few;
+    Eigen::VectorXd few, own = part_.dealt.ranks ? part_.own(r) : r;
     if (exact_.any() && !exact_.solve(r, few)) return false;
-    if (part_.dealt.ranks) r = part_.own(r);
-    if (exact_.any()) exact_.balance(few, threads_, r);
-    if (!bodies_->apply(r)) return false;
-    if (part_.dealt.ranks) r = part_.all(std::move(r));
+    if (exact_.any()) exact_.balance(few, threads_, own);
+    if (!bodies_->apply(own)) return false;
+    r = part_.all(std::move(own));
     if (exact_.any()) exact_.add(few, r);
     return true;
   }

@@ -11,7 +11,7 @@ namespace osculate::la {
 /// What goes through the iterations of la::Iterative, which decides when, and what to believe.
 ///
 /// Contract   the bits of a solution depend on the matrix, the places, and the matrix of the last
-///            `build` alone
+///            `build` alone (and on how rows are dealt out to processes)
 class Engine {
  public:
   Engine() = default;
@@ -33,15 +33,7 @@ class Engine {
   [[nodiscard]] virtual Eigen::VectorXd diagonal() const = 0;
   /// The matrix, both triangles.
   [[nodiscard]] virtual SparseMatrix matrix() const = 0;
-  /// Gives the memory back.
-  virtual void forget() = 0;
 };
-
-/// Translations of the nodes, and rotations about the middle of all. Zero where `alone` is not: an
-/// unknown that has nothing to do with others, as where its motion is prescribed, or of no node.
-///
-/// Shapes     a row per unknown, three columns in the plane and six in space
-[[nodiscard]] Eigen::MatrixXd rigid_motions(const Places& places, const std::vector<char>& alone);
 
 /// la::Multigrid, with factors of what is exact; `direct` is how several processes factor.
 [[nodiscard]] std::unique_ptr<Engine> make_multigrid_engine(const MumpsOptions& direct);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <type_traits>
 #include <utility>
 
@@ -138,22 +139,25 @@ void GroupedRows<Value>::multiply(const Eigen::VectorXd& x, int threads, Eigen::
 template <class Value>
 CompressedRows GroupedRows<Value>::as_rows() const {
   CompressedRows a(groups_.back(), columns_);
-  std::vector<Index> column;
-  std::vector<double> value;
-  for (std::size_t g = 0; g + 1 < groups_.size(); ++g)
-    for (Index i = 0; i < size_of(g); ++i) {
-      const Value* next = values_.data() + first_value_[g] + i;
-      for (std::size_t r = first_run_[g]; r < first_run_[g + 1]; ++r)
-        for (Index k = 0; k < runs_[r].count; ++k, next += size_of(g))
-          if (*next != 0 || runs_[r].first + k == groups_[g] + i) {
-            column.push_back(runs_[r].first + k);
-            value.push_back(static_cast<double>(*next) / scale_);
-          }
-      a.outerIndexPtr()[groups_[g] + i + 1] = static_cast<Index>(column.size());
-    }
-  a.resizeNonZeros(static_cast<Index>(column.size()));
-  std::ranges::copy(column, a.innerIndexPtr());
-  std::ranges::copy(value, a.valuePtr());
+  const auto each = [&](const auto& take) {  // row by row
+    for (std::size_t g = 0; g + 1 < groups_.size(); ++g)
+      for (Index i = 0; i < size_of(g); ++i) {
+        const Value* next = values_.data() + first_value_[g] + i;
+        for (std::size_t r = first_run_[g]; r < first_run_[g + 1]; ++r)
+          for (Index k = 0; k < runs_[r].count; ++k, next += size_of(g))
+            if (const Index row = groups_[g] + i, column = runs_[r].first + k;
+                *next != 0 || row == column)
+              take(row, column, static_cast<double>(*next) / scale_);
+      }
+  };
+  each([&](Index row, Index, double) { ++a.outerIndexPtr()[row + 1]; });
+  std::partial_sum(a.outerIndexPtr(), a.outerIndexPtr() + a.rows() + 1, a.outerIndexPtr());
+  a.resizeNonZeros(a.outerIndexPtr()[a.rows()]);
+  Index next = 0;
+  each([&](Index, Index column, double value) {
+    a.innerIndexPtr()[next] = column;
+    a.valuePtr()[next++] = value;
+  });
   return a;
 }
 

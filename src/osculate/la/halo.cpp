@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace osculate::la {
 namespace {
@@ -51,15 +52,17 @@ std::vector<double> exchanged(const core::Ranks& ranks,
 Halo::Halo(const core::Ranks* ranks, std::vector<Index> first, std::vector<Index> others)
     : ranks_(ranks), first_(std::move(first)), others_(std::move(others)) {
   if (!ranks_) return;
-  std::vector<std::vector<double>> wanted(first_.size() - 1);
   auto next = others_.begin();
-  for (std::size_t p = 0; p < wanted.size(); ++p) {
-    for (; next != others_.end() && *next < first_[p + 1]; ++next) wanted[p].push_back(*next);
-    from_.push_back(static_cast<int>(wanted[p].size()));
+  for (std::size_t p = 0; p + 1 < first_.size(); ++p) {
+    const auto end = std::lower_bound(next, others_.end(), first_[p + 1]);
+    from_.push_back(static_cast<int>(end - next));
+    next = end;
   }
   to_ = counts_from(*ranks_, from_);
-  for (const double unknown : exchanged(*ranks_, wanted))
-    asked_.push_back(static_cast<Index>(unknown) - begin());
+  const std::vector<double> wanted(others_.begin(), others_.end());
+  std::vector<double> asked(static_cast<std::size_t>(std::accumulate(to_.begin(), to_.end(), 0)));
+  ranks_->exchange(wanted, from_, asked, to_);
+  for (const double unknown : asked) asked_.push_back(static_cast<Index>(unknown) - begin());
 }
 
 void Halo::update(Eigen::VectorXd& here) const {
@@ -90,13 +93,13 @@ CompressedRows Halo::rows_of_others(const CompressedRows& own) const {
         to[p].push_back(entry.value());
       }
     }
-  const std::vector<double> taken = exchanged(*ranks_, to);
-  rows.reserve(static_cast<Index>(taken.size() / 2));
+  const std::vector<double> received = exchanged(*ranks_, to);
+  rows.reserve(static_cast<Index>(received.size() / 2));
   std::size_t at = 0;
   for (Index i = 0; i < rows.rows(); ++i) {
     rows.startVec(i);
-    for (auto left = static_cast<int>(taken[at++]); left > 0; --left, at += 2)
-      rows.insertBack(i, static_cast<Index>(taken[at])) = taken[at + 1];
+    for (auto left = static_cast<int>(received[at++]); left > 0; --left, at += 2)
+      rows.insertBack(i, static_cast<Index>(received[at])) = received[at + 1];
   }
   rows.finalize();
   return rows;
@@ -116,12 +119,11 @@ double Halo::norm(const Eigen::VectorXd& here) const {
 
 std::vector<Index> dealt_out(const core::Ranks* ranks, Index mine) {
   if (!ranks) return {0, mine};
+  std::vector<double> counts(static_cast<std::size_t>(ranks->count()), 0.0);
+  counts[static_cast<std::size_t>(ranks->rank())] = mine;
+  ranks->sum(counts);
   std::vector<Index> first{0};
-  for (int p = 0; p < ranks->count(); ++p) {
-    int count = mine;
-    ranks->spread({&count, 1}, p);
-    first.push_back(first.back() + count);
-  }
+  for (const double count : counts) first.push_back(first.back() + static_cast<Index>(count));
   return first;
 }
 
@@ -153,9 +155,9 @@ CompressedRows with_rows_of_others(const CompressedRows& own, const Halo& halo) 
   return all;
 }
 
-CompressedRows summed_up(CompressedRows&& rows, const core::Ranks* ranks,
+CompressedRows summed_up(CompressedRows& rows, const core::Ranks* ranks,
                          const std::vector<Index>& first) {
-  if (!ranks) return std::move(rows);
+  if (!ranks) return taken(rows);
   const auto me = static_cast<std::size_t>(ranks->rank());
   std::vector<std::vector<double>> to(first.size() - 1);
   for (std::size_t p = 0; p < to.size(); ++p)
@@ -199,8 +201,8 @@ Halo halo_of(const core::Ranks* ranks, std::vector<Index> first,
   return {ranks, std::move(first), std::move(others)};
 }
 
-CompressedRows with_columns_here(CompressedRows&& rows, const Halo& halo) {
-  if (!halo.ranks()) return std::move(rows);
+CompressedRows with_columns_here(CompressedRows& rows, const Halo& halo) {
+  if (!halo.ranks()) return taken(rows);
   const auto is_own = [&](Index j) { return j >= halo.begin() && j < halo.end(); };
   CompressedRows out(rows.rows(), halo.here());
   out.reserve(rows.nonZeros());

@@ -61,7 +61,8 @@ class Halo {
   std::vector<int> from_, to_;  ///< how many of others_ and asked_ are of each process
 };
 
-// Sparse rows of several processes. Of one process alone (no ranks) they stay as they are.
+// Sparse rows of several processes. Of one process alone (no ranks) they stay as they are; rows
+// that are not const are used up.
 
 /// The number everywhere of the first unknown of each process, and how many there are, where this
 /// one has `mine`.
@@ -71,13 +72,13 @@ void put_everywhere(CompressedRows& own_columns, Index first, Index columns);
 /// Own rows, and below them those of others that are here.
 [[nodiscard]] CompressedRows with_rows_of_others(const CompressedRows& own, const Halo& halo);
 /// Of rows everywhere the own ones, with what others add to them.
-[[nodiscard]] CompressedRows summed_up(CompressedRows&& rows, const core::Ranks* ranks,
+[[nodiscard]] CompressedRows summed_up(CompressedRows& rows, const core::Ranks* ranks,
                                        const std::vector<Index>& first);
 /// The halo of what the columns of rows see, which have their numbers everywhere.
 [[nodiscard]] Halo halo_of(const core::Ranks* ranks, std::vector<Index> first,
                            const std::vector<const CompressedRows*>& rows);
 /// Columns get their numbers here; all are here.
-[[nodiscard]] CompressedRows with_columns_here(CompressedRows&& rows, const Halo& halo);
+[[nodiscard]] CompressedRows with_columns_here(CompressedRows& rows, const Halo& halo);
 /// All rows of a matrix, on every process.
 [[nodiscard]] CompressedRows gathered(const CompressedRows& own, const Halo& halo);
 /// Groups of own unknowns, and one for each unknown of others.

@@ -22,7 +22,7 @@ struct Level {
   Eigen::MatrixXd near_null;                   ///< likewise
   BlockDiagonal inverse;
   double largest = 0;  ///< eigenvalue of D^-1 A
-  Eigen::VectorXd x, r, d, t, of_coarse;
+  Eigen::VectorXd r, d, t, of_coarse;
 
   /// What the smoother needs; false: there are no numbers.
   bool prepare_smoother(const CompressedRows& matrix, int threads);
@@ -199,19 +199,20 @@ bool Multigrid::Impl::coarsen() {
     next.p = next.p - (damping / fine.largest) * scaled;
     next.p.makeCompressed();
   }
-  CompressedRows a = times_a(next.p);
-  fine.a = {};
-  {
-    const CompressedRows transposed = next.p.transpose();
-    a = summed_up(product(transposed, a, threads), ranks, first);
-  }
   auto coarse = std::make_unique<Level>();
-  coarse->halo = halo_of(ranks, first, {&a, &next.p});
-  const CompressedRows p = with_columns_here(std::move(next.p), coarse->halo);
+  {
+    CompressedRows spread = times_a(next.p);
+    release(fine.a);
+    const CompressedRows transposed = next.p.transpose();
+    CompressedRows all = product(transposed, spread, threads);
+    release(spread);
+    CompressedRows a = summed_up(all, ranks, first);
+    coarse->halo = halo_of(ranks, first, {&a, &next.p});
+    with_columns_here(a, coarse->halo).swap(coarse->a);
+  }
+  const CompressedRows p = with_columns_here(next.p, coarse->halo);
   fine.p = GroupedRows<float>(p, fine.start);
   fine.transposed = GroupedRows<float>(p.transpose(), with_others(next.start, coarse->halo));
-  a = with_columns_here(std::move(a), coarse->halo);
-  coarse->a.swap(a);
   coarse->start = std::move(next.start);
   coarse->near_null = std::move(next.near_null);
   fine.near_null = {};
@@ -227,7 +228,7 @@ Multigrid::~Multigrid() = default;
 
 bool Multigrid::build(CompressedRows&& a, Halo halo, GroupStarts groups,
                       Eigen::MatrixXd near_null) {
-  constexpr Index coarsest = 1500;
+  constexpr Index coarsest = 1500, too_many = 10 * coarsest;
   constexpr std::size_t most_levels = 12;
   Impl& s = *impl_;
   forget();
@@ -242,11 +243,13 @@ bool Multigrid::build(CompressedRows&& a, Halo halo, GroupStarts groups,
     if (!last.prepare_smoother(last.a, s.threads)) return false;
     if (!s.coarsen()) break;
   }
+  const Halo& last = s.levels.back()->halo;
+  if (last.ranks() && last.everywhere() > too_many) return false;  // all would be on each process
   s.coarsest = std::make_unique<Mumps>();
-  const FactorReport report = s.coarsest->factor(
-      stored(gathered(s.levels.back()->a, s.levels.back()->halo)), 0, Symmetry::unsymmetric);
-  s.levels.back()->a = {};
-  return s.levels.back()->halo.all(report.status == SolveStatus::ok);
+  const FactorReport report =
+      s.coarsest->factor(stored(gathered(s.levels.back()->a, last)), 0, Symmetry::unsymmetric);
+  release(s.levels.back()->a);
+  return last.all(report.status == SolveStatus::ok);
 }
 
 bool Multigrid::refresh(const CompressedRows& a, Halo halo) {

@@ -19,7 +19,7 @@ struct Preconditioned {
   /// Not a number where the preconditioner does not work.
   [[nodiscard]] Eigen::VectorXd solution(const Eigen::VectorXd& y) const {
     Eigen::VectorXd x = y;
-    if (!precondition(x)) x.setConstant(std::nan(""));
+    if (!precondition(x)) x = Eigen::VectorXd::Constant(n, std::nan(""));
     return x;
   }
   [[nodiscard]] Eigen::VectorXd operator*(const Eigen::VectorXd& y) const {

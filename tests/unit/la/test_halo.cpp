@@ -8,6 +8,7 @@
 
 #include "elastic_block.hpp"
 #include "osculate/la/dealt_rows.hpp"
+#include "osculate/la/engine.hpp"
 #include "osculate/la/grouped_rows.hpp"
 #include "osculate/la/multigrid.hpp"
 #include "ranks.hpp"
@@ -17,13 +18,17 @@ namespace {
 
 using test::ElasticBlock;
 
-/// A process for each node: parts one above the other, or at random.
-std::vector<int> owners(const ElasticBlock& block, int processes, bool at_random) {
+enum class Deal { layers, at_random, all_to_the_last };
+
+/// A process for each node.
+std::vector<int> owners(const ElasticBlock& block, int processes, Deal deal) {
   std::mt19937 random(7);
   std::vector<int> owner;
   for (Index n = 0; n < block.nodes(); ++n)
-    owner.push_back(at_random ? static_cast<int>(random() % static_cast<unsigned>(processes))
-                              : static_cast<int>(n * processes / block.nodes()));
+    owner.push_back(deal == Deal::at_random
+                        ? static_cast<int>(random() % static_cast<unsigned>(processes))
+                    : deal == Deal::layers ? static_cast<int>(n * processes / block.nodes())
+                                           : processes - 1);
   return owner;
 }
 
@@ -70,10 +75,15 @@ struct Here {
     a.swap(rows.a);
   }
   [[nodiscard]] Eigen::VectorXd own(const Eigen::VectorXd& all) const {
+    if (!dealt.ranks) return all;
     Eigen::VectorXd out(halo.here());
     for (Index i = 0; i < halo.own(); ++i)
       out[i] = all[dealt.unknown[as_size(halo.number_everywhere(i))]];
     return out;
+  }
+  [[nodiscard]] Eigen::VectorXd all(const Eigen::VectorXd& own) const {
+    if (dealt.ranks) return halo.gathered(own)(dealt.number);
+    return own;
   }
   [[nodiscard]] GroupStarts nodes() const {
     GroupStarts start;
@@ -82,7 +92,7 @@ struct Here {
   }
 };
 
-class Halos : public ::testing::TestWithParam<std::tuple<int, bool>> {
+class Halos : public ::testing::TestWithParam<std::tuple<int, Deal>> {
  protected:
   template <class Work>
   void on_all(const Work& work) const {
@@ -165,44 +175,114 @@ TEST_P(Halos, ProductsOfMatricesAreThoseOfAllRows) {
     mine.makeCompressed();
     put_everywhere(mine, first[as_size(k.ranks->rank())], first.back());
     const CompressedRows ap = here.a * with_rows_of_others(mine, here.halo);
-    CompressedRows sum = summed_up(CompressedRows(mine.transpose()) * ap, k.ranks, first);
+    CompressedRows all_rows = CompressedRows(mine.transpose()) * ap;
+    const CompressedRows sum = summed_up(all_rows, k.ranks, first);
     const Eigen::MatrixXd rows = expected.middleRows(first[as_size(k.ranks->rank())], 3);
     EXPECT_LT((Eigen::MatrixXd(sum) - rows).norm(), 1e-13 * expected.norm());
   });
 }
 
-TEST_P(Halos, MultigridConvergesAsThatOfOneProcess) {
+/// What is left of an error after one cycle, in the norm of the energy, at most: by iterations.
+double rate(Multigrid& cycle, const ElasticBlock& block, const Here& here,
+            const CompressedRows& all) {
+  Eigen::VectorXd e = some(block.unknowns());
+  for (Index i = 0; i < block.unknowns(); ++i)
+    if (block.held(i)) e[i] = 0;
+  for (int i = 0; i < 8; ++i) {
+    e /= std::sqrt(e.dot(all * e));
+    Eigen::VectorXd x = here.own(all * e).head(here.halo.own());
+    EXPECT_TRUE(cycle.apply(x));
+    e -= here.all(x);
+  }
+  return std::sqrt(e.dot(all * e));
+}
+
+double rate(const SparseMatrix& k, const ElasticBlock& block, const CompressedRows& all,
+            int levels) {
+  const Here here(k, {});
+  Eigen::MatrixXd motions(here.halo.own(), 6);
+  for (Index m = 0; m < 6; ++m)
+    motions.col(m) = here.own(block.rigid_motions().col(m)).head(here.halo.own());
+  Multigrid cycle(1);
+  EXPECT_TRUE(cycle.build(CompressedRows(here.a), here.halo, here.nodes(), motions));
+  EXPECT_GE(cycle.levels(), levels);
+  return rate(cycle, block, here, all);
+}
+
+/// With a model in the middle, too.
+TEST(MultigridOfRanks, ConvergesAsThatOfOneProcess) {
+  const ElasticBlock block(10, 10, 80);
+  const SparseMatrix& whole = block.matrix();
+  const CompressedRows all = compressed(whole, Symmetry::unsymmetric);
+  const double of_one = rate(whole, block, all, 3);
+  EXPECT_LT(of_one, 0.6);
+  for (const Deal deal : {Deal::layers, Deal::all_to_the_last}) {
+    std::vector<double> rates(3);
+    testing::as_ranks(3, [&](const core::Ranks& ranks) {
+      rates[as_size(ranks.rank())] =
+          rate(rows_of(whole, owners(block, 3, deal), ranks), block, all, 3);
+    });
+    for (const double of_ranks : rates) EXPECT_EQ(of_ranks, rates.front());
+    EXPECT_LT(rates.front(), of_one + 0.05);
+  }
+}
+
+/// Few nodes of a process are neighbours then.
+TEST(MultigridOfRanks, NodesThatAreDealtOutAtRandom) {
   const ElasticBlock block(10, 10, 10);
   const SparseMatrix& whole = block.matrix();
   const CompressedRows all = compressed(whole, Symmetry::unsymmetric);
-  const auto [processes, at_random] = GetParam();
-  std::vector<double> rates(static_cast<std::size_t>(processes));
-  testing::as_ranks(processes, [&](const core::Ranks& ranks) {
-    const SparseMatrix k = rows_of(whole, owners(block, ranks.count(), at_random), ranks);
-    const Here here(k, {});
-    Eigen::MatrixXd motions(here.halo.own(), 6);
-    for (Index m = 0; m < 6; ++m)
-      motions.col(m) = here.own(block.rigid_motions().col(m)).head(here.halo.own());
-    Multigrid cycle(1);
-    EXPECT_TRUE(cycle.build(CompressedRows(here.a), here.halo, here.nodes(), motions));
-    EXPECT_GE(cycle.levels(), 2);
-    Eigen::VectorXd e = some(block.unknowns());
-    for (Index i = 0; i < block.unknowns(); ++i)
-      if (block.held(i)) e[i] = 0;
-    for (int i = 0; i < 20; ++i) {
-      e /= std::sqrt(e.dot(all * e));
-      Eigen::VectorXd x = here.own(all * e).head(here.halo.own());
-      EXPECT_TRUE(cycle.apply(x));
-      e -= here.halo.gathered(x)(here.dealt.number);
-    }
-    rates[static_cast<std::size_t>(ranks.rank())] = std::sqrt(e.dot(all * e));
+  testing::as_ranks(4, [&](const core::Ranks& ranks) {
+    EXPECT_LT(rate(rows_of(whole, owners(block, 4, Deal::at_random), ranks), block, all, 2), 0.6);
   });
-  for (const double rate : rates) EXPECT_EQ(rate, rates.front());
-  EXPECT_LT(rates.front(), 0.6);
+}
+
+/// The same solutions as one process, of the first matrix, of a further one, and built again; also
+/// of the upper triangle alone.
+TEST_P(Halos, TheEngineSolvesAsThatOfOneProcess) {
+  ElasticBlock block(8, 8, 8);
+  Places places = block.places();
+  std::fill(places.exact.begin(), places.exact.end(), 0);  // needs the factors of several processes
+  const Eigen::VectorXd b = some(block.unknowns());
+  SparseMatrix stiffer = block.matrix();
+  for (double& value : stiffer.value) value *= 2;
+  for (const Symmetry symmetry : {Symmetry::unsymmetric, Symmetry::positive_definite})
+    on_all([&](const SparseMatrix& some_rows) {
+      const std::vector<int> owner =
+          owners(block, some_rows.ranks->count(), std::get<1>(GetParam()));
+      const auto given = [&](const SparseMatrix& k) {
+        return symmetry == Symmetry::unsymmetric ? k : lopsided(k);
+      };
+      const SparseMatrix first = rows_of(given(block.matrix()), owner, *some_rows.ranks),
+                         second = rows_of(given(stiffer), owner, *some_rows.ranks);
+      const CompressedRows all = compressed(block.matrix(), symmetry);
+      const std::unique_ptr<Engine> engine = make_multigrid_engine({});
+      const auto expect_solved = [&](double scale) {
+        Eigen::VectorXd x = b;
+        EXPECT_TRUE(engine->solve({}, x).solved);
+        EXPECT_LT((scale * (all * x) - b).norm(), 2e-8 * b.norm());
+        EXPECT_EQ(engine->diagonal(), scale * Eigen::VectorXd(all.diagonal()));
+      };
+      EXPECT_TRUE(engine->build(first, symmetry, places));
+      expect_solved(1);
+      const bool again = engine->refresh(second, symmetry, places);
+      EXPECT_TRUE(again || engine->build(second, symmetry, places));
+      expect_solved(2);
+      EXPECT_TRUE(engine->build_again(places));
+      expect_solved(2);
+      EXPECT_LT((multiply(engine->matrix(), b) - 2 * (all * b)).norm(), 1e-13 * (all * b).norm());
+      SparseMatrix others = second;  // dealt out otherwise
+      if (others.ranks->count() > 1) {
+        others = rows_of(stiffer, std::vector<int>(owner.size(), 0), *some_rows.ranks);
+        EXPECT_FALSE(engine->refresh(others, symmetry, places));
+      }
+    });
 }
 
 INSTANTIATE_TEST_SUITE_P(Processes, Halos,
-                         ::testing::Combine(::testing::Values(1, 2, 3, 8), ::testing::Bool()));
+                         ::testing::Combine(::testing::Values(1, 2, 3, 8),
+                                            ::testing::Values(Deal::layers, Deal::at_random,
+                                                              Deal::all_to_the_last)));
 
 }  // namespace
 }  // namespace osculate::la
