@@ -30,9 +30,26 @@ struct Place {
 
 Value check_node(const Spec& spec, const SourceNode& node, const Place& place);
 
+/// What is written instead: the example of the specification, or its required keys; how items of
+/// a list begin.
+std::string as_written(const Spec& spec, const SourceNode& node, const Place& place) {
+  if (node.kind == Kind::map && spec.type == Type::list)
+    return "; every item of a list begins with `- `";
+  const std::string key = place.path.substr(place.path.rfind('.') + 1);
+  if (key.ends_with(']')) return {};
+  if (spec.example.starts_with('{') || spec.example.starts_with('['))
+    return fmt::format("; for example `{}: {}`", key, spec.example);
+  std::string needed;
+  if (spec.type == Type::map)
+    for (const Key& one : spec.keys)
+      if (one.required) needed += (needed.empty() ? "" : ", ") + one.name + ": ...";
+  return needed.empty() ? needed : fmt::format("; write `{}: {{{}}}`", key, needed);
+}
+
 [[noreturn]] void wrong_shape(const Spec& spec, const SourceNode& node, const Place& place) {
   throw core::InputError(place.at(node.line),
-                         fmt::format("expected {}, got {}", describe(spec), describe(node)));
+                         fmt::format("expected {}, got {}{}", describe(spec), describe(node),
+                                     as_written(spec, node, place)));
 }
 
 /// Defaults are written as YAML in the specification.
@@ -80,13 +97,22 @@ void add_defaults(const Spec& spec, const SourceNode& node, const Place& place, 
   }
 }
 
+/// Behind the message for a key that is not known: `mu: 0,3` in a map is read as `mu: 0` and `3`.
+std::string after_unknown_key(const Spec& spec, const SourceEntry& entry) {
+  const bool digits = !entry.key.empty() && entry.key.size() < 20 &&
+                      entry.key.find_first_not_of("0123456789eE+-") == std::string::npos;
+  if (digits && entry.value.kind == Kind::nothing) return "; decimals are written with a point";
+  return spec.hint;
+}
+
 void check_map(const Spec& spec, const SourceNode& node, const Place& place, Value& value) {
   for (const SourceEntry& entry : node.entries) {
     const Key* const key = find_key(spec, entry.key);
     if (!key)
       throw core::InputError(
           place.at(entry.line),
-          core::unknown_name_message("key", printable(entry.key), key_names(spec)) + spec.hint);
+          core::unknown_name_message("key", printable(entry.key), key_names(spec)) +
+              after_unknown_key(spec, entry));
     const Place at = place.key(entry.key);
     if (!key->spec.available) throw core::InputError(at.at(entry.line), "is not available yet");
     if (!key->former.empty() && value.find(key->name))

@@ -479,7 +479,8 @@ BoundKey<Description> contact_key() {
                                      "touch each other by `all` as well, and what `ties` hold "
                                      "together does not either.",
                                      pair_keys().spec("One contact pair."))
-                                    .otherwise("[]"))}),
+                                    .otherwise("[]"))})
+                      .or_else("; in a list of pairs each begins with `- `"),
                   choice("The same, for short.",
                          {Choice{"all", "all bodies, with the default of every key", 0, true}})})
               .otherwise("[]")

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -130,6 +131,27 @@ Description read_deck(const std::string& path, std::span<const Setting> settings
   return d;
 }
 
+/// A mesh or a drawing in place of a model file: what is done with it.
+void refuse_other_files(const std::string& path, std::string_view text) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::ranges::transform(ending, ending.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const auto refuse = [&](const std::string& what) {
+    throw core::InputError({path, 0, ""}, "is no model file: it is " + what);
+  };
+  if (text.starts_with("$MeshFormat"))
+    refuse(fmt::format("a mesh of Gmsh; `osculate init {}` writes a model file for it", path));
+  if (ending == ".geo")
+    refuse(
+        fmt::format("a geometry of Gmsh; mesh it (`gmsh -3 {}`, in the plane -2), then `osculate "
+                    "init` writes a model file for the mesh",
+                    path));
+  if (ending == ".step" || ending == ".stp" || ending == ".iges" || ending == ".igs")
+    refuse(
+        "a drawing; mesh it, in Gmsh for example, then `osculate init` writes a model file for "
+        "the mesh");
+}
+
 }  // namespace
 
 Description read_model(const std::string& path, std::span<const Setting> settings) {
@@ -146,6 +168,7 @@ Description read_model(const std::string& path, std::span<const Setting> setting
   std::string text(TextLimits{}.bytes + 1, '\0');
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(file.gcount()));
+  refuse_other_files(path, text);
   return parse_model(text, path, settings);
 }
 

@@ -28,6 +28,21 @@ std::string_view without_plus(std::string_view text) {
   return plus ? text.substr(1) : text;
 }
 
+/// `210 GPa`, `0,3`: what is wrong with it, behind a message; else empty.
+std::string fault_of_number(std::string_view text) {
+  double value{};
+  const std::string_view digits = without_plus(text);
+  const auto [end, code] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  const std::string_view rest = digits.substr(static_cast<std::size_t>(end - digits.data()));
+  if (code != std::errc{} || rest.size() < 2) return {};
+  const char next = rest[rest[0] == ' ' ? 1 : 0];
+  if (rest[0] == ',' && rest[1] >= '0' && rest[1] <= '9')
+    return "; decimals are written with a point";
+  if (rest[0] == ' ' && ((next >= 'a' && next <= 'z') || (next >= 'A' && next <= 'Z')))
+    return "; numbers have no units: all are in one consistent system";
+  return {};
+}
+
 bool is_not_finite_word(std::string_view text) {
   std::string lower;
   for (const char c : text.substr(0, 16))
@@ -97,7 +112,9 @@ double read_number(const Spec& spec, const SourceNode& node, const core::SourceM
     throw core::InputError(mark, fmt::format("{} is out of range: use numbers between 1e-300 and "
                                              "1e100",
                                              printable(node.text)));
-  if (!value || !std::isfinite(*value)) wrong_type("a number", node, mark);
+  if (!value || !std::isfinite(*value))
+    throw core::InputError(mark, fmt::format("expected a number, got {}{}", describe(node),
+                                             fault_of_number(node.text)));
   check_range(spec, *value, node, mark);
   return *value;
 }
@@ -119,14 +136,27 @@ bool read_boolean(const SourceNode& node, const core::SourceMark& mark) {
   wrong_type("true or false", node, mark);
 }
 
+/// Where the known words are too many for a message.
+std::string where_words_are(const std::vector<std::string>& known, const SourceNode& node,
+                            const core::SourceMark& mark) {
+  if (known.size() <= 20 || !core::nearest_name(printable(node.text), known).empty()) return {};
+  std::string key;
+  bool index = false;
+  for (const char c : mark.key) {
+    index = c == '[' || (index && c != ']');
+    if (!index && c != ']') key += c == '.' ? ' ' : c;
+  }
+  return fmt::format(" (`osculate doc {}` says what they mean)", key);
+}
+
 const Choice& read_choice(const Spec& spec, const SourceNode& node, const core::SourceMark& mark) {
   if (node.kind != SourceNode::Kind::scalar) wrong_type(describe(spec), node, mark);
   const auto found = std::find_if(spec.choices.begin(), spec.choices.end(),
                                   [&](const Choice& c) { return c.name == node.text; });
   const std::vector<std::string> known = choice_names(spec);
   if (found == spec.choices.end())
-    throw core::InputError(
-        mark, core::unknown_name_message("value", printable(node.text), known) + spec.hint);
+    throw core::InputError(mark, core::unknown_name_message("value", printable(node.text), known) +
+                                     where_words_are(known, node, mark) + spec.hint);
   if (!found->available)
     throw core::InputError(
         mark, fmt::format("'{}' is not available yet{}", found->name,

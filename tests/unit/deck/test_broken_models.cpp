@@ -33,6 +33,8 @@ TEST(BrokenModels, UnknownKeysNameTheNearest) {
        "model.yaml:31: steps[1].prescribe[0]: unknown key 'amplitud'; did you mean 'amplitude'?"},
       {"uy: -0.007", "zz: -0.007",
        "model.yaml:27: steps[0].prescribe[0]: unknown key 'zz'; did you mean 'uz'?"},
+      {"uy: -0.007", "UY: -0.007",
+       "model.yaml:27: steps[0].prescribe[0]: unknown key 'UY'; did you mean 'uy'?"},
       {"{on: roll, fy", "{\"on\\n\\e\": roll, fy",
        "model.yaml:32: steps[1].forces[0]: unknown key 'on?\?'; did you mean 'on'?"},
       {"linear_elastic:", "plastic_flow:",
@@ -122,7 +124,7 @@ TEST(BrokenModels, WrongTypes) {
        "'0.3'"},
       {"mu: 0.3", "mu: 0,3",
        "model.yaml:17: contact[0].friction.coulomb: unknown key '3'; known: "
-       "mu, penalty, kinetic, decay, cap, viscous"},
+       "mu, penalty, kinetic, decay, cap, viscous; decimals are written with a point"},
       {"mu: 0.3", "mu: 1d4",
        "model.yaml:17: contact[0].friction.coulomb.mu: expected a number, got the text '1d4'"},
       {"mu: 0.3", "mu: 0x10",
@@ -143,15 +145,20 @@ TEST(BrokenModels, WrongTypes) {
        "model.yaml:13: contact[0].master: expected a text or a list of words, got a map"},
       {"master: bottom", "master: ''", "model.yaml:13: contact[0].master: must not be empty"},
       {"{linear_elastic: {E: 2.1e4, nu: 0.3}}", "linear_elastic",
-       "model.yaml:5: materials.steel: expected a map, got the text 'linear_elastic'"},
+       "model.yaml:5: materials.steel: expected a map, got the text 'linear_elastic'; for "
+       "example `steel: {linear_elastic: {E: 2.1e5, nu: 0.3}}`"},
       {"equal: [{on: top, of: uy}]", "equal: {on: top, of: uy}",
-       "model.yaml:25: equal: expected a list of maps, got a map"},
+       "model.yaml:25: equal: expected a list of maps, got a map; every item of a list begins "
+       "with `- `"},
       {"{penalty: 2.1e6}\n    friction", "2.1e6\n    friction",
-       "model.yaml:16: contact[0].normal: expected a map, got 2.1e6"},
+       "model.yaml:16: contact[0].normal: expected a map, got 2.1e6; for example `normal: "
+       "{penalty: 2.1e6}`"},
       {"friction: {coulomb: {mu: 0.3, penalty: 2.1e6}}", "friction: 0.3",
-       "model.yaml:17: contact[0].friction: expected none or a map, got 0.3"},
+       "model.yaml:17: contact[0].friction: expected none or a map, got 0.3; for example "
+       "`friction: {coulomb: {mu: 0.3, penalty: 2.1e6}}`"},
       {"friction: {coulomb: {mu: 0.3, penalty: 2.1e6}}", "friction: [coulomb]",
-       "model.yaml:17: contact[0].friction: expected none or a map, got a list"},
+       "model.yaml:17: contact[0].friction: expected none or a map, got a list; for example "
+       "`friction: {coulomb: {mu: 0.3, penalty: 2.1e6}}`"},
       {"tangent: consistent", "tangent: {main: 1}",
        "model.yaml:21: contact[0].tangent.main: expected true or false, got 1"},
       {"mesh: block.msh", "mesh: [block.msh]",
@@ -162,7 +169,14 @@ TEST(BrokenModels, WrongTypes) {
        "model.yaml:38: output.fields: expected an integer, every, last or none, got the text "
        "'sometimes'"},
       {"y: floor.normal_force", "y: {a: 1}",
-       "model.yaml:40: output.plots[0].y: expected a text or a list of words, got a map"},
+       "model.yaml:40: output.plots[0].y: expected a text or a list of words, got a map; for "
+       "example `y: [top.rfx, top.rfy]`"},
+      {"mu: 0.3", "mu: 3 kN",
+       "model.yaml:17: contact[0].friction.coulomb.mu: expected a number, got the text '3 kN'; "
+       "numbers have no units: all are in one consistent system"},
+      {"{coulomb: {mu: 0.3, penalty: 2.1e6}}", "{coulomb: 0.3}",
+       "model.yaml:17: contact[0].friction.coulomb: expected a map, got 0.3; write `coulomb: {mu: "
+       "...}`"},
   });
 }
 
