@@ -1,13 +1,28 @@
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 
 #include "../together.hpp"
 #include "commands.hpp"
 #include "osculate/core/memory.hpp"
+#include "osculate/core/text.hpp"
 #include "osculate/core/version.hpp"
 #include "osculate/la/blas_threads.hpp"
 
 namespace {
+
+/// What is wrong with the first word, if it is no command; `reversed`: the arguments from behind.
+std::string unknown_command(const CLI::App& app, const std::vector<std::string>& reversed) {
+  if (reversed.empty() || reversed.back().starts_with('-')) return {};
+  const std::string& word = reversed.back();
+  std::vector<std::string> names;
+  for (const CLI::App* const command : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(command->get_name());
+  if (std::ranges::find(names, word) != names.end()) return {};
+  if (word.find_first_of("./") != std::string::npos)
+    return "'" + word + "' is no command; for a model file or deck: `osculate run " + word + "`";
+  return osculate::core::unknown_name_message("command", word, names);
+}
 
 int run_program(int argc, char** argv) {
   using namespace osculate::app;
@@ -37,6 +52,10 @@ int run_program(int argc, char** argv) {
   if (argc > 0 && std::filesystem::path(argv[0]).stem() == "ccx")
     arguments.insert(arguments.begin(), "ccx");
   std::ranges::reverse(arguments);
+  if (const std::string wrong = unknown_command(app, arguments); !wrong.empty()) {
+    std::fprintf(stderr, "error: %s\n", wrong.c_str());
+    return bad_input;
+  }
   app.parse_complete_callback([&app] {
     const std::string name = app.get_subcommands().front()->get_name();
     if (name != "run" && name != "verify") be_alone(name);

@@ -133,6 +133,20 @@ class Program(unittest.TestCase):
         self.assertIn("body 'block' is free to move along (1.0000, 0.0000)", message)
         self.assertTrue(os.path.exists(self.path("model.results/last_iterate.vtu")))
 
+    def test_what_is_no_command_or_no_model_is_answered_with_what_to_do(self):
+        with open(self.path("part.msh"), "w") as file:
+            file.write("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n")
+        with open(self.path("part.geo"), "w") as file:
+            file.write("Point(1) = {0, 0, 0};\n")
+        for arguments, said in ((("chekc", "m.yaml"), "unknown command 'chekc'; did you mean 'check'?"),
+                                (("m.yaml",), "for a model file or deck: `osculate run m.yaml`"),
+                                (("run", "part.msh"), "it is a mesh of Gmsh; `osculate init part.msh` writes a model file for it"),
+                                (("run", "part.geo"), "mesh it (`gmsh -3 part.geo`, in the plane -2)")):
+            with self.subTest(arguments=arguments):
+                done = self.run_program(*arguments)
+                self.assertEqual((done.returncode, done.stdout), (2, ""))
+                self.assertIn(said, done.stderr)
+
     def test_bad_input_ends_with_2_and_writes_nothing(self):
         for wrong, message in (
             ("materials: {s", "model.yaml:4: materials: "),
