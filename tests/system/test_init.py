@@ -91,6 +91,28 @@ class Init(unittest.TestCase):
         self.assertEqual(pairs, [("low_top", "up_bottom")])
         self.assertIn("doubtful: their normals are not opposite", text)
 
+    def test_glued_bodies_empty_groups_and_the_way_of_loads_are_told_of(self):
+        """Two cubes, one on the other, with the nodes between them in common, and a group of cells that were not meshed."""
+        nodes = [(x, y, z) for z in range(3) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))]
+        names = [(3, "low"), (3, "up"), (2, "bottom"), (2, "top"), (3, "missing")]
+        cells = [(5, 1, range(1, 9)), (5, 2, range(5, 13)), (3, 3, (1, 4, 3, 2)), (3, 4, (9, 10, 11, 12))]
+        with open(self.path("glued.msh"), "w") as file:
+            print("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames", len(names), sep="\n", file=file)
+            for number, (dimension, name) in enumerate(names, 1):
+                print(dimension, number, f'"{name}"', file=file)
+            print("$EndPhysicalNames\n$Nodes", len(nodes), sep="\n", file=file)
+            for number, x in enumerate(nodes, 1):
+                print(number, *x, file=file)
+            print("$EndNodes\n$Elements", len(cells), sep="\n", file=file)
+            for number, (kind, group, its) in enumerate(cells, 1):
+                print(number, kind, 2, group, group, *its, file=file)
+            print("$EndElements", file=file)
+        text = self.start(self.path("glued.msh"))
+        self.assertIn("# low and up share 4 nodes: they hold together there.", text)
+        self.assertRegex(text, r"#   missing +0 volumes +EMPTY: the mesh has nothing of it\n")
+        self.assertIn("      - {on: bottom, ux: 0, uy: 0, uz: 0}\n      #- {on: top, uz: -0.002}\n", text)
+        self.assertIn("#total_force: [{on: top, fx: 1}]", text)
+
     def test_a_file_that_is_there_stays_as_it_is(self):
         shutil.copy(CLIP, self.path("clip.msh"))
         self.assertEqual(self.program("init", "clip.msh").stdout, "wrote clip.yaml\n")

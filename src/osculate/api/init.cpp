@@ -48,9 +48,11 @@ std::string sets_comment(const Start& s) {
     for (const mesh::Set& set : s.mesh.sets) {
       if (set.dimension != dimension || is_a_node(set) || ++listed > most_sets) continue;
       const std::size_t cells = set.cells.empty() ? set.nodes.size() : set.cells.size();
-      text += fmt::format("#   {:<20} {:>7} {:<8} {}\n", yaml_text(set.name), cells,
-                          kinds[static_cast<std::size_t>(dimension)],
-                          bounds_part(bounds_of(s.mesh, set), s.found.dimension));
+      text +=
+          fmt::format("#   {:<20} {:>7} {:<8} {}\n", yaml_text(set.name), cells,
+                      kinds[static_cast<std::size_t>(dimension)],
+                      set.nodes.empty() ? std::string("EMPTY: the mesh has nothing of it")
+                                        : bounds_part(bounds_of(s.mesh, set), s.found.dimension));
     }
   if (listed > most_sets)
     text += fmt::format("#   and {} more (osculate check --json)\n", listed - most_sets);
@@ -75,6 +77,31 @@ bool of_shells(const mesh::Mesh& mesh, const mesh::Set& set) {
   });
 }
 
+/// Sections that have nodes in common, the first few: they hold together, whatever was meant.
+std::string shared_nodes_comment(const Start& s) {
+  constexpr std::size_t most = 6;
+  std::string text;
+  std::vector<char> here(s.mesh.nodes.size());
+  std::size_t listed = 0;
+  for (std::size_t a = 0; a < s.found.sections.size() && listed < most; ++a) {
+    std::ranges::fill(here, 0);
+    for (const Index node : s.found.sections[a]->nodes) here[static_cast<std::size_t>(node)] = 1;
+    for (std::size_t b = a + 1; b < s.found.sections.size() && listed < most; ++b) {
+      const auto shared = std::ranges::count_if(s.found.sections[b]->nodes, [&](Index node) {
+        return here[static_cast<std::size_t>(node)] != 0;
+      });
+      if (shared == 0) continue;
+      text += fmt::format("# {} and {} share {} nodes: they hold together there.\n",
+                          yaml_text(s.found.sections[a]->name),
+                          yaml_text(s.found.sections[b]->name), shared);
+      ++listed;
+    }
+  }
+  if (listed == 0) return text;
+  return text +
+         "# For contact between them mesh them apart (Gmsh: no BooleanFragments, Coherence).\n";
+}
+
 std::string sections_part(const Start& s) {
   std::string text = s.found.dimension == 2
                          ? "# element: or plane_stress (with thickness:), axisymmetric (about y; x "
@@ -83,7 +110,7 @@ std::string sections_part(const Start& s) {
   if (s.found.left_out > 0)
     text += fmt::format("# {} cells of overlapping sets are in no section: osculate doc sets\n",
                         s.found.left_out);
-  text += "sections:\n";
+  text += shared_nodes_comment(s) + "sections:\n";
   for (const mesh::Set* const set : s.found.sections) {
     const char* element = of_shells(s.mesh, *set) ? "solid_shell" : "solid";
     if (s.found.dimension == 2) element = "plane_strain";
@@ -159,18 +186,45 @@ const mesh::Set* loaded_set(const Start& s, const std::vector<FacingPair>& pairs
   return nullptr;
 }
 
+/// Across a flat set into its body, or down: along which axis, and its sign.
+struct Push {
+  int axis;
+  double sign;
+};
+
+Push push_of(const Start& s, const mesh::Set& set) {
+  constexpr double flat = 1e-3;  // of its size
+  const Bounds bounds = bounds_of(s.mesh, set);
+  Bounds body;
+  const Index part = s.found.part_of(set);
+  for (std::size_t n = 0; n < s.mesh.nodes.size(); ++n)
+    if (s.found.part_of_node[n] == part) body.add(s.mesh.nodes[n]);
+  Push push{s.found.dimension - 1, -1};
+  for (int i = 0; i < s.found.dimension; ++i) {
+    if (!(bounds.high[i] - bounds.low[i] <= flat * bounds.size())) continue;
+    const bool below = bounds.low[i] + bounds.high[i] < body.low[i] + body.high[i];
+    push = {i, below ? 1.0 : -1.0};
+  }
+  return push;
+}
+
 std::string loads_comment(const Start& s, const std::vector<FacingPair>& pairs,
                           const std::vector<const mesh::Set*>& held) {
   const double move = 1e-3 * s.found.bounds.size();
   const mesh::Set* const set = loaded_set(s, pairs, held);
   std::string text;
+  const Push push = set ? push_of(s, *set) : Push{s.found.dimension - 1, -1};
   if (set && set->dimension < s.found.dimension)
-    text += fmt::format("      #- {{on: {}, uy: {:.1g}}}\n", yaml_text(set->name), -move);
+    text += fmt::format("      #- {{on: {}, u{}: {:.1g}}}\n", yaml_text(set->name),
+                        "xyz"[push.axis], push.sign * move);
   if (set && set->dimension == s.found.dimension - 1)
     text += fmt::format("    #pressure: [{{on: {}, value: 1}}]\n", yaml_text(set->name));
-  if (set) text += fmt::format("    #total_force: [{{on: {}, fx: 1}}]\n", yaml_text(set->name));
-  return text + fmt::format("    #body_force: [{{on: {}, fy: -1}}]\n",
-                            yaml_text(s.found.sections.front()->name));
+  if (set)  // along it, so that it may stand beside the prescribed motion
+    text += fmt::format("    #total_force: [{{on: {}, f{}: 1}}]\n", yaml_text(set->name),
+                        push.axis == 0 ? 'y' : 'x');
+  return text + fmt::format("    #body_force: [{{on: {}, f{}: -1}}]\n",
+                            yaml_text(s.found.sections.front()->name),
+                            "xyz"[s.found.dimension - 1]);
 }
 
 std::string steps_part(const Start& s, const std::vector<FacingPair>& pairs) {
