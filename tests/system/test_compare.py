@@ -190,6 +190,25 @@ class ResultFilesOfCalculiX(unittest.TestCase):
                 self.assertEqual(result.returncode, 1, result.stdout)
                 self.assertIn(says, result.stdout)
 
+    def test_contact_is_compared_by_quantities_of_one_unit(self):
+        """A gap that differs by all it has is not hidden behind the pressures of the same rows."""
+        row = "\n -4  CONTACT     6    1\n" + "".join(f" -5  {name:<8}    1    4    1    1\n" for name in (
+            "COPEN", "CSLIP1", "CSLIP2", "CPRESS", "CSHEAR1", "CSHEAR2"))
+        paths = []
+        for number, values in enumerate(([1e-3, 0, 2e-3, 400, 30, 40], [2e-3, 0, 2e-3, 400, 30, 44])):
+            path = os.path.join(self.folder, f"contact{number}.frd")
+            with open(self.file("a")) as file:
+                text = file.read()
+            head = re.findall(r"\n  100CL.*", text)[-1]
+            block = head + row + " -1" + f"{1:10d}" + "".join(f"{value:12.5E}" for value in values) + "\n -3"
+            with open(path, "w") as file:
+                file.write(text.replace("\n 9999", block + "\n 9999"))
+            paths.append(path)
+        rows = table(compare(*paths).stdout)
+        self.assertEqual({name: row[0] for name, row in rows.items()},
+                         {"DISP": 0, "STRESS": 0, "CONTACT COPEN": 1e-3, "CONTACT CSLIP": 0, "CONTACT CPRESS": 0, "CONTACT CSHEAR": 4})
+        self.assertAlmostEqual(rows["CONTACT COPEN"][2], 0.5)
+
     def test_what_cannot_be_read_is_bad_input(self):
         empty = os.path.join(self.folder, "empty")
         os.makedirs(empty, exist_ok=True)

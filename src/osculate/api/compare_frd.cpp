@@ -46,8 +46,24 @@ std::set<std::int64_t> common_nodes(const io::FrdContent& a, const io::FrdConten
   return out;
 }
 
+/// Components of a result that have one unit, by their place in each row.
+struct Part {
+  std::string name;
+  std::size_t from, to;
+};
+
+/// CONTACT has lengths and tractions in one row; a difference of one is none of the other.
+std::vector<Part> parts_of(const io::FrdResult& result) {
+  const std::size_t width = result.nodes.empty() ? 0 : result.values.size() / result.nodes.size();
+  if (result.name != "CONTACT" || width != 6) return {{result.name, 0, width}};
+  return {{"CONTACT COPEN", 0, 1},
+          {"CONTACT CSLIP", 1, 3},
+          {"CONTACT CPRESS", 3, 4},
+          {"CONTACT CSHEAR", 4, 6}};
+}
+
 void compare_results(const io::FrdResult& a, const io::FrdResult& b,
-                     const std::set<std::int64_t>& nodes, QuantityDifference& d) {
+                     const std::set<std::int64_t>& nodes, const Part& part, QuantityDifference& d) {
   std::unordered_map<std::int64_t, std::size_t> place;
   for (std::size_t j = 0; j < b.nodes.size(); ++j) place.emplace(b.nodes[j], j);
   const std::size_t width = a.nodes.empty() ? 0 : a.values.size() / a.nodes.size();
@@ -59,7 +75,7 @@ void compare_results(const io::FrdResult& a, const io::FrdResult& b,
   for (std::size_t i = 0; i < a.nodes.size(); ++i) {
     const auto other = place.find(a.nodes[i]);
     if (other == place.end() || !nodes.contains(a.nodes[i])) continue;
-    for (std::size_t k = 0; k < width; ++k)
+    for (std::size_t k = part.from; k < part.to; ++k)
       d.take_in(a.values[width * i + k], b.values[width * other->second + k], a.time);
   }
 }
@@ -114,9 +130,9 @@ Comparison compare_frd(const std::string& a, const std::string& b) {
           !same_printed_time(other.time, result.time))
         continue;
       taken[j] = true;
-      QuantityDifference& d =
-          found.try_emplace(result.name, QuantityDifference{result.name}).first->second;
-      compare_results(result, other, nodes, d);
+      for (const Part& part : parts_of(result))
+        compare_results(result, other, nodes, part,
+                        found.try_emplace(part.name, QuantityDifference{part.name}).first->second);
       if (times.empty() || times.back() != result.time) times.push_back(result.time);
       break;
     }
