@@ -74,13 +74,16 @@ template <int Dim>
 Reason reason(const model::BasicContactPair<Dim>& pair, const Penetration& found,
               const model::BasicModel<Dim>& model, const std::vector<Vec<Dim>>& x) {
   const pairing::PairDefinition<Dim>& definition = pair.definition;
+  if (definition.filter.own && pair.group.empty())
+    return {"one set is master and slave, which is contact of a surface with itself"};
   if (definition.filter.limited()) return {};
   const Sight now = sight_of<Dim>(definition, definition.slave, x);
   const Sight once = sight_of<Dim>(definition, definition.slave, model.reference);
   if (now.facing == 0 && now.alike > 0)
     return {
         "the normals of master and slave point the same way, as if one were behind the other: "
-        "turn one of them round (`flip`, `inside`, the order of points)",
+        "turn one of them round (`flip`, `inside`, the order of points), or, of bodies of cells, "
+        "name the sides that face each other",
         true};
   if (now.least < 0 && std::isfinite(definition.depth))
     return {fmt::format("points are behind the master by more than search: {{depth: {:g}}}",

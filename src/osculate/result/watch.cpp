@@ -12,6 +12,7 @@
 #include "osculate/result/pulling.hpp"
 #include "osculate/result/soft_friction.hpp"
 #include "osculate/result/without_clearance.hpp"
+#include "osculate/result/without_force.hpp"
 
 namespace osculate::result {
 namespace {
@@ -128,6 +129,7 @@ std::vector<std::string> Watch<Dim>::end(bool open_matters) {
   for (std::size_t p = 0; p < model.pairs.size(); ++p) {
     add(missed_target(model, model.pairs[p], deepest[p]), texts);
     add(soft_friction(model.pairs[p], deepest[p]), texts);
+    if (open_matters) add(without_force(model, model.pairs[p], deepest[p]), texts);
   }
   if (open_matters && !now.empty())
     for (std::string& text : never_closed(model, deepest, now)) add(std::move(text), texts);
