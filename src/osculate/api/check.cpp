@@ -18,6 +18,11 @@ namespace osculate::api {
 namespace {
 
 std::string gap_line(const std::string& pair, const result::GapFacts& g, std::size_t points) {
+  if (g.found == 0)
+    return fmt::format(
+        "{:<13} {:<16} none of {} slave points faces the master: it is elsewhere, or one of both "
+        "looks away\n",
+        "Initial gaps", pair, points);
   return fmt::format(
       "{:<13} {:<16} {} of {} slave points face the master, {} touch, {} overlap, gap {:.4g} to "
       "{:.4g}\n",

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "osculate/core/text.hpp"
+#include "osculate/material/law.hpp"
 #include "osculate/mesh/boundary.hpp"
 #include "osculate/mesh/quality.hpp"
 #include "osculate/model/body_changes.hpp"
@@ -56,6 +57,35 @@ std::string extent_text(const deck::BasicBuilt<Dim>& built, nlohmann::json& json
   if (mesh.nodes.empty()) return {};
   json["size"] = {{"low", numbers(all.low, Dim)}, {"high", numbers(all.high, Dim)}};
   return line("Size", "mesh", fmt::format("{}; {} nodes", all.text(Dim), mesh.nodes.size()));
+}
+
+/// Where Young's modulus is one in Pa and the mesh too long for metres, or one in MPa and the mesh
+/// too short for millimetres: a question, as either may be meant.
+template <int Dim>
+std::string units_text(const model::BasicModel<Dim>& m) {
+  constexpr double pascal = 1e8, megapascal = 1e3;  // least moduli that are taken for such
+  constexpr double metres = 5, millimetres = 0.2;
+  Extent all;
+  for (const Vec<Dim>& x : m.reference) {
+    Vec3 place = Vec3::Zero();
+    place.head<Dim>() = x;
+    all.add(place);
+  }
+  double young = 0;
+  for (const auto& section : m.sections)
+    young = std::max(young, material::unloaded(section.section.law).young);
+  const double size = m.reference.empty() ? 0 : (all.high - all.low).maxCoeff();
+  if (young >= pascal && size > metres)
+    return line("Units", "?",
+                fmt::format("E of {:.3g}, if in Pa, goes with m: {:.3g} m long? (mm go with N and "
+                            "MPa)",
+                            young, size));
+  if (young >= megapascal && young < pascal && size > 0 && size < millimetres)
+    return line("Units", "?",
+                fmt::format("E of {:.3g}, if in MPa, goes with mm: {:.3g} mm long? (m go with N "
+                            "and Pa)",
+                            young, size));
+  return {};
 }
 
 constexpr std::array<const char*, 4> set_kinds{"nodes", "lines", "areas", "volumes"};
@@ -197,11 +227,24 @@ nlohmann::json resultant_json(const deck::Resultant& r) {
 
 template <int Dim>
 std::string mesh_text(const deck::BasicBuilt<Dim>& built, nlohmann::json& json) {
-  std::string text = extent_text(built, json);
+  std::string text = extent_text(built, json) + units_text(built.model);
   for (int dimension = 3; dimension >= 0; --dimension)  // bodies, sides; edges and corners
     text += sets_text(built.model.mesh, dimension, dimension >= Dim - 1 ? 24 : 6);
   json["sets"] = sets_json(built.model.mesh);
   return text + quality_text(built, json);
+}
+
+/// Names of contacts, with what they cannot hold.
+template <int Dim>
+std::vector<std::string> with_friction(const model::BasicModel<Dim>& m,
+                                       std::vector<std::string> names) {
+  for (std::string& name : names) {
+    const auto pair = std::ranges::find(m.pairs, name, &model::BasicContactPair<Dim>::name);
+    if (pair != m.pairs.end() && !pair->definition.friction &&
+        !pairing::held_from_start(pair->definition))
+      name += " (without friction)";
+  }
+  return names;
 }
 
 template <int Dim>
@@ -235,7 +278,7 @@ std::string support_text(const deck::BasicBuilt<Dim>& built, nlohmann::json& jso
       else
         what += "; free to " + core::join(body.free, " and ");
       if (!body.free.empty() && !body.contact.empty())
-        what += ", but for " + core::join(body.contact, ", ", 5);
+        what += ", but for " + core::join(with_friction(m, body.contact), ", ", 5);
       if (what == last[b]) continue;
       text += line(s == 0 ? "Supports" : "  then", body.body,
                    s == 0 ? what : fmt::format("in {}: {}", m.steps[s].name, what));

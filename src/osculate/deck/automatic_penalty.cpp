@@ -27,6 +27,21 @@ double area_per_point(const BuildContext<Dim>& c, const pairing::PairDefinition<
   return sum / static_cast<double>(measured.reference_areas.size());
 }
 
+/// A given penalty beside which the bodies are lost in rounding.
+template <int Dim>
+void warn_of_stiff(BuildContext<Dim>& c, const model::BasicContactPair<Dim>& pair,
+                   double automatic) {
+  constexpr double most = 1e7;
+  const double given = contact::penalty_of(pair.definition.normal);
+  if (pair.definition.weight == pairing::Weight::node || pairing::by_multipliers(pair.definition) ||
+      !(automatic > 0) || !(given > most * automatic))
+    return;
+  c.built.warnings.push_back(fmt::format(
+      "contact '{}': its penalty of {:.3g} is {:.1g} times the automatic one ({:.3g}): rounding of "
+      "forces so stiff hides the rest, and iterations may not end; leave it out",
+      pair.name, given, given / automatic, automatic));
+}
+
 }  // namespace
 
 template <int Dim>
@@ -40,9 +55,10 @@ void set_automatic(BuildContext<Dim>& c, const Contact& contact,
   out.automatic = law.automatic;
   const bool shear = contact.friction && contact.friction->automatic;
   model::set_point_factors(c.model(), *c.cells_of_node, sides, law.automatic, shear, out);
+  const model::AutomaticStiffness stiffness = model::automatic_stiffness(sides);
+  if (!law.automatic) warn_of_stiff(c, out, stiffness.normal);
   if (!law.automatic && !shear) return;
   const core::SourceMark& mark = law.automatic ? law.stiffness : contact.friction->stiffness;
-  const model::AutomaticStiffness stiffness = model::automatic_stiffness(sides);
   if (!(stiffness.normal > 0))
     throw core::InputError(
         mark,

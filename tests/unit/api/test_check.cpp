@@ -1,4 +1,5 @@
 // What `osculate check` says.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <filesystem>
@@ -11,6 +12,7 @@ namespace osculate::api {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 CheckReport check_text(const std::string& text) {
   const std::filesystem::path file =
@@ -85,10 +87,10 @@ TEST(Check, SizeSetsCellsLoadsAndSupports) {
         "  pressure    b.top            as before, value 3: force (0, -12), moment -24 about the "
         "origin\n",
         "Supports      b                9 displacements prescribed; free to move along y and "
-        "turn about (2, 2), but for c\n",
+        "turn about (2, 2), but for c (without friction)\n",
         "Supports      floor            3 of 3 motions prescribed; no free motion\n",
         "  then        b                in let: nothing prescribed; free to move and turn, but "
-        "for c\n"})
+        "for c (without friction)\n"})
     EXPECT_THAT(report.text, HasSubstr(line));
   const nlohmann::json json = nlohmann::json::parse(report.json);
   EXPECT_EQ(json["size"]["high"], (std::vector<double>{4, 2}));
@@ -96,6 +98,44 @@ TEST(Check, SizeSetsCellsLoadsAndSupports) {
   EXPECT_NEAR(json["steps"][0]["total"]["force"][1], -12, 1e-12);
   EXPECT_EQ(json["quality"][0]["poor_cells"], 0);
   EXPECT_EQ(json["supports"][0]["free"][0], "move along y");
+}
+
+TEST(Check, ContactThatLooksAwayHoldsNoSlidingAndIsFarTooStiff) {
+  const CheckReport report = check_text(R"(osculate: 1
+mesh:
+  generate:
+    low: {box: {x: [-2, 2], y: [-1, 0], elements: [8, 2]}}
+    up: {box: {x: [-1, 1], y: [0, 1], elements: [5, 2]}}
+materials: {m: {linear_elastic: {E: 100, nu: 0.3}}}
+sections: [{on: low, material: m, element: plane_strain}, {on: up, material: m, element: plane_strain}]
+contact: [{name: c, master: low.bottom, slave: up.bottom, normal: {penalty: 1e16}}]
+steps: [{name: press, increments: 1, prescribe: [{on: low.bottom, ux: 0, uy: 0}]}]
+)");
+  for (const char* const text :
+       {"Supports      up               nothing prescribed; free to move and turn, but for c "
+        "(without "
+        "friction)\n",
+        "slave points faces the master: it is elsewhere, or one of both looks away\n",
+        "warning: contact 'c': its penalty of 1e+16 is 1e+13 times the automatic one"})
+    EXPECT_THAT(report.text, HasSubstr(text));
+}
+
+TEST(Check, AsksForUnitsThatDoNotGoTogether) {
+  const auto text = [](const char* young, const char* to) {
+    return check_text(fmt::format(R"(osculate: 1
+mesh: {{generate: {{b: {{box: {{x: [0, {}], y: [0, {}], elements: [2, 2]}}}}}}}}
+materials: {{m: {{linear_elastic: {{E: {}, nu: 0.3}}}}}}
+sections: [{{on: b, material: m, element: plane_strain}}]
+steps: [{{name: press, increments: 1, prescribe: [{{on: b.bottom, ux: 0, uy: 0}}]}}]
+)",
+                                  to, to, young))
+        .text;
+  };
+  EXPECT_THAT(text("2.1e11", "20"), HasSubstr("Units         ?                E of 2.1e+11, if in "
+                                              "Pa, goes with m: 20 m long?"));
+  EXPECT_THAT(text("2.1e5", "0.02"), HasSubstr("if in MPa, goes with mm: 0.02 mm long?"));
+  for (const auto& [young, to] : {std::pair{"2.1e5", "20"}, {"2.1e11", "0.02"}, {"10", "0.02"}})
+    EXPECT_THAT(text(young, to), Not(HasSubstr("Units")));
 }
 
 }  // namespace
