@@ -31,6 +31,15 @@ def moved(x, way):
 
 
 class Points(unittest.TestCase):
+    def test_it_prints_where_it_is_and_what_acts(self):
+        point, x = curve()
+        here = point.at(moved(x, 0.002))
+        lines = str(here).splitlines()
+        self.assertEqual(lines[0].split(", place")[0], f"stick at the face of facet 0, xi {here.xi}")
+        self.assertIn(f"gap {here.gap:.6g}, ", lines[1])
+        self.assertEqual(lines[4], f"tangent: largest entry {abs(here.tangent).max():.6g}")
+        self.assertEqual(len(lines), 8)
+
     def order(self, point, x, name, exact):
         errors = [np.abs(point.derivative(name, x, step=h) - exact).max() for h in (2e-4, 1e-4)]
         self.assertGreater(errors[0], 0)

@@ -25,6 +25,17 @@ class Studies(unittest.TestCase):
         np.testing.assert_allclose(table.array()["force"], 16, rtol=1e-9)
         self.assertEqual(set(table.column("status")), {"done"})
 
+    def test_a_table_is_printed_and_drawn(self):
+        table = osculate.study(block(), {"mu": [0.5, 0.3]}, {"force": "c.normal_force"})
+        lines = str(table).splitlines()
+        self.assertEqual([line.split() for line in lines], [["mu", "force", "status"], ["0.5", "16", "done"], ["0.3", "16", "done"]])
+        self.assertEqual(len({len(line) for line in lines}), 1)
+        axes = table.plot("mu", "force")
+        np.testing.assert_array_equal(axes.lines[0].get_xdata(), [0.3, 0.5])
+        np.testing.assert_array_equal(axes.lines[0].get_ydata(), table.column("force")[::-1])
+        with self.assertRaisesRegex(KeyError, "no column 'forc'; it has mu, force, status"):
+            table.plot("mu", "forc")
+
     def test_processes_change_nothing(self):
         points = {"side": [0.1, 0.15, 0.2]}
         self.assertEqual(osculate.study(block(), points, OUTPUTS, processes=1),

@@ -26,7 +26,8 @@ class PointParts:
     shear, slip                 tangential traction and elastic predictor's slip of the increment, in space (d)
     force                       on all nodes, (n d)
     tangent                     its derivative, (n d, n d)
-    main, rotational, bending   the parts of the papers' tangent: KS2D:54, 56, 58 and KSVD:55 to 58
+    main, rotational, bending   the parts of the papers' tangent: KS2D:54, 56, 58 and KSVD:55 to 58. Their sum is not
+                                `tangent`: the papers take the rates at g = 0 (docs/theory_contact.md)
     before, after               History: what it remembers at the beginning of the increment, and at its end
     """
 
@@ -57,6 +58,16 @@ class PointParts:
     bending: np.ndarray
     before: _core.History
     after: _core.History
+
+    def __str__(self):
+        """Where it is and what acts there, in a few lines; `repr` has all."""
+        lines = [f"{self.status.name} at the {self.feature.name} of facet {self.facet}, xi {self.xi}, place {self.foot}",
+                 f"gap {self.gap:.6g}, normal {self.normal}, pressure {self.pressure:.6g}, shear {self.shear}"]
+        for name in ("metric", "curvature"):
+            lines.append(f"{name} {np.array2string(getattr(self, name)).replace(chr(10), '')}")
+        for name in ("tangent", "main", "rotational", "bending"):
+            lines.append(f"{name}: largest entry {np.abs(getattr(self, name)).max(initial=0.0):.6g}")
+        return "\n".join(lines)
 
 
 class ContactPoint:

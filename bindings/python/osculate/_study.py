@@ -36,6 +36,39 @@ class Table(list):
             out[name] = column
         return out
 
+    def plot(self, x, *columns, file=None, ax=None):
+        """Draws columns over another one with matplotlib, the rows in the order of `x`; returns the axes.
+
+        `file`: saved there. `ax`: drawn into these axes. Errors: KeyError for a column that there is not.
+        """
+        import matplotlib.pyplot as plt
+
+        for name in (x, *columns):
+            if self and name not in self[0]:
+                raise KeyError(f"the table has no column {name!r}; it has {', '.join(self[0])}")
+        if ax is None:
+            ax = plt.subplots()[1]
+        order = np.argsort(self.column(x), kind="stable") if self else []
+        for name in columns:
+            ax.plot(self.column(x)[order], self.column(name)[order], "o-", label=name)
+        ax.set_xlabel(x)
+        if columns:
+            ax.legend()
+        if file is not None:
+            ax.figure.savefig(file)
+        return ax
+
+    def __str__(self):
+        """Columns with headings, as `osculate study` prints them."""
+        if not self:
+            return "an empty table"
+        cells = [[str(name) for name in self[0]]]
+        for row in self:
+            cells.append([f"{value:.6g}" if isinstance(value, (float, np.floating)) else str(value)
+                          for value in row.values()])
+        wide = [max(len(line[k]) for line in cells) for k in range(len(cells[0]))]
+        return "\n".join("  ".join(text.rjust(width) for text, width in zip(line, wide)) for line in cells)
+
 
 def _points(parameters):
     if hasattr(parameters, "items"):
