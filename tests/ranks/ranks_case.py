@@ -22,11 +22,11 @@ def environment():
         "OMPI_MCA_btl_vader_single_copy_mechanism": "none", "OMPI_MCA_plm": "isolated", "LC_ALL": "C"}
 
 
-def together(processes, *arguments):
-    """The command that runs the program so; one process: without mpirun."""
+def together(processes, *arguments, quiet=True):
+    """The command that runs the program so; one process: without mpirun. Quiet: mpirun says nothing of how processes end."""
     if processes == 1:
         return [PROGRAM, *arguments]
-    return [MPIRUN, "-q", "-x", "LD_PRELOAD=" + PATIENT, "-n", str(processes), PROGRAM, *arguments]
+    return [MPIRUN, *["-q"] * quiet, "-x", "LD_PRELOAD=" + PATIENT, "-n", str(processes), PROGRAM, *arguments]
 
 
 def numbers(path):
@@ -55,10 +55,6 @@ class RanksCase(unittest.TestCase):
     def write(self, text, name="model.yaml"):
         with open(self.path(name), "w") as file:
             file.write(text)
-
-    def begin(self, processes, *arguments):
-        return subprocess.Popen(together(processes, *arguments), cwd=self.folder.name, text=True, env=environment(),
-                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL)
 
     def run_program(self, processes, *arguments, code=0):
         done = subprocess.run(together(processes, *arguments), cwd=self.folder.name, capture_output=True, text=True,
