@@ -5,8 +5,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <vector>
 
+#include "by_ranks.hpp"
 #include "osculate/api/tangent_check.hpp"
 #include "osculate/deck/build.hpp"
 
@@ -22,6 +24,18 @@ inline void expect_tangent(const api::TangentReport& report) {
     EXPECT_TRUE(row.exact || std::abs(row.order - 2) < 0.15)
         << row.part << ": order " << row.order << ", error " << row.error;
   }
+}
+
+/// The increment by as many processes as OSCULATE_TEST_RANKS in the environment of the tests says.
+/// Products with symmetric matrices are sums over the processes, whose last bits differ; where
+/// matrices are unsymmetric (friction) there is no difference.
+template <int Dim>
+void expect_the_same_by_ranks(const deck::BasicBuilt<Dim>& built) {
+  constexpr double last_bits = 1e-12;
+  const char* const wanted = std::getenv("OSCULATE_TEST_RANKS");
+  if (!wanted) return;
+  expect_the_same_by<Dim>(std::atoi(wanted), built, analysed<Dim>(built, nullptr),
+                          model::needs_unsymmetric(built.model) ? 0.0 : last_bits);
 }
 
 /// The first increment converges; its two columns of history are a force and its reaction.
@@ -40,6 +54,7 @@ void expect_increment(const deck::BasicBuilt<Dim>& built) {
   ASSERT_EQ(result.outcome, solve::Outcome::converged) << result.message;
   EXPECT_GT(row[0], 1e-3);
   EXPECT_NEAR(row[0], -row[1], 1e-7 * row[0]);
+  expect_the_same_by_ranks<Dim>(built);
 }
 
 /// A contact pair in its model, moved from where it was built.

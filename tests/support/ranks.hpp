@@ -23,7 +23,7 @@ struct Meeting {
 
 /// One of these threads. Sums are made from the last one to the first, which is not the order of
 /// MPI: what depends on it does so on the number of processes, too.
-class ThreadRanks final : public core::Ranks {
+class ThreadRanks : public core::Ranks {
  public:
   ThreadRanks(Meeting& meeting, int rank) : meeting_(meeting), rank_(rank) {}
   using core::Ranks::largest;
