@@ -25,6 +25,7 @@ BasicSystem<Dim>::Impl::Explicit::Explicit(Impl& s)
       batches(s.bulk),
       work(static_cast<std::size_t>(s.bulk.threads)),
       active_set(s.model.pairs.size()),
+      far(s.model.pairs.size()),
       turning(s.model.rigid.size()) {
   const Eigen::Index n = system.dofs.dofs();
   loaded = !s.step.pressure.empty() || !s.step.centrifugal.empty() || !s.step.dead.empty() ||
@@ -218,7 +219,7 @@ bool BasicSystem<Dim>::Impl::Explicit::add_cells(const Vector& u, double h) {
 }
 
 template <int Dim>
-void BasicSystem<Dim>::Impl::Explicit::add_contact(double h, double fraction) {
+void BasicSystem<Dim>::Impl::Explicit::add_contact(double h, double fraction, bool all) {
   if (active_set.empty()) return;
   const Stopwatch watch;
   system.last.forces.contact.setZero();
@@ -227,12 +228,20 @@ void BasicSystem<Dim>::Impl::Explicit::add_contact(double h, double fraction) {
     active_set[p].duration = h;
     active_set[p].mean_onset = h > 0;
     active_set[p].relief = system.contact.relief(pair, fraction);
-    pairing::evaluate<Dim>(pair, x, now.pairs[p], false, system.last.contact[p], active_set[p]);
-    for (const pairing::ContactBlock<Dim>& block : system.last.contact[p].blocks)
+    pairing::evaluate<Dim>(pair, x, now.pairs[p], system.last.contact[p], active_set[p], far[p],
+                           all);
+    const auto add = [&](const pairing::ContactBlock<Dim>& block) {
       for (int k = 0; k < block.count; ++k)
         system.last.forces.contact.template segment<Dim>(
             Dim * block.nodes[static_cast<std::size_t>(k)]) +=
             block.force.template segment<Dim>(Dim * k);
+    };
+    const std::vector<pairing::ContactBlock<Dim>>& blocks = system.last.contact[p].blocks;
+    if (far[p].leaves_out()) {
+      for (const std::size_t i : far[p].looked_at()) add(blocks[i]);
+    } else {
+      for (const pairing::ContactBlock<Dim>& block : blocks) add(block);
+    }
   }
   system.contact.seconds += watch.seconds();
 }
@@ -242,10 +251,20 @@ template <int Dim>
 void BasicSystem<Dim>::Impl::Explicit::commit_contact() {
   for (std::size_t p = 0; p < now.pairs.size(); ++p) {
     const pairing::PairEvaluation<Dim>& evaluation = system.last.contact[p];
-    system.touched[p] = system.touched[p] || pairing::touches(evaluation);
-    now.pairs[p].points.resize(evaluation.points.size());
-    for (std::size_t i = 0; i < evaluation.points.size(); ++i)
-      now.pairs[p].points[i] = evaluation.points[i].history;
+    std::vector<contact::PointHistory<Dim>>& committed = now.pairs[p].points;
+    committed.resize(evaluation.points.size());
+    bool touches = false;
+    const auto commit = [&](std::size_t i) {
+      const pairing::PointResult<Dim>& point = evaluation.points[i];
+      committed[i] = point.history;
+      touches = touches || point.status != contact::Status::open;
+    };
+    if (far[p].leaves_out()) {
+      for (const std::size_t i : far[p].looked_at()) commit(i);
+    } else {
+      for (std::size_t i = 0; i < committed.size(); ++i) commit(i);
+    }
+    system.touched[p] = system.touched[p] || touches;
     now.pairs[p].places = evaluation.mortar.places;
   }
 }
@@ -448,7 +467,7 @@ bool BasicSystem<Dim>::Impl::Explicit::accelerate(double time, double h, solve::
   warm(system.model, system.step.temperature, fraction, system.last.memory);
   if (!add_cells(m.position, h)) return false;
   now.memory.swap(system.last.memory);
-  add_contact(h, fraction);
+  add_contact(h, fraction, !(time < until));
   commit_contact();
   add_loads(fraction);
   sum_forces();

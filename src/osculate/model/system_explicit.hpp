@@ -5,6 +5,7 @@
 
 #include "osculate/model/force_batches.hpp"
 #include "osculate/model/system_motion.hpp"
+#include "osculate/pairing/far_points.hpp"
 
 namespace osculate::model {
 
@@ -64,6 +65,7 @@ struct BasicSystem<Dim>::Impl::Explicit {
   std::vector<Work> work;     ///< per thread
   std::vector<Dof> gathered;  ///< dofs whose forces or whose part in the motion others have
   std::vector<pairing::ActiveSet<Dim>> active_set;
+  std::vector<pairing::FarPoints<Dim>> far;  ///< likewise per pair
 
   // The running increment.
   State now;
@@ -82,6 +84,7 @@ struct BasicSystem<Dim>::Impl::Explicit {
   double held_before = 0;       ///< that of what is prescribed
   double energy_available = 0;  ///< what is there and what has been put in
   double last_step = 0;         ///< length of the last time step
+  double until = 0;             ///< time at the end of the increment
   double without_way = 0;       ///< the largest `kick` and `heat` since the increment began
   Vector u_before;              ///< displacements then, where temperatures change
   bool lost = false;            ///< forces are no numbers any more
@@ -118,7 +121,8 @@ struct BasicSystem<Dim>::Impl::Explicit {
   }
   /// The cells of a part; the first that has no answer, or their number.
   [[nodiscard]] std::ptrdiff_t add_part(std::size_t part, const Vector& u, double h);
-  void add_contact(double h, double fraction);
+  /// `all`: places of points far from contact are asked for, too.
+  void add_contact(double h, double fraction, bool all);
   void commit_contact();
   void add_loads(double fraction);
   void sum_forces();

@@ -92,6 +92,7 @@ void BasicSystem<Dim>::Impl::Explicit::load(const State& committed) {
   system.last.forces.contact = r.contact;
   system.last.forces.external = r.external;
   damping_force = r.damping;
+  for (pairing::FarPoints<Dim>& of_pair : far) of_pair.forget();
   stable = r.stable;
   works = {};
   without_way = 0;
@@ -155,7 +156,7 @@ Rates BasicSystem<Dim>::Impl::Explicit::begin(const State& committed, Rates rate
   load(start);
   warm(system.model, system.step.temperature, 0, system.last.memory);
   if (!add_cells(motion.position, 0)) return rates;  // the first time step says why
-  add_contact(0, 0);
+  add_contact(0, 0, true);
   add_loads(0);
   sum_forces();
   (void)set_accelerations(0, motion);  // likewise
@@ -320,8 +321,9 @@ ExplicitIncrement<BasicState<Dim>> BasicSystem<Dim>::Impl::Explicit::increment(
   lost = false;
   const double whole = system.step.duration;
   const double from = committed.fraction < fraction ? committed.fraction : 0.0;
-  out.outcome = solve::advance(*this, motion, from * whole, fraction * whole, options,
-                               out.time_steps, inspect_after);
+  until = fraction * whole;
+  out.outcome =
+      solve::advance(*this, motion, from * whole, until, options, out.time_steps, inspect_after);
   out.time_steps.governed = governed();
   if (lost) {
     out.outcome = solve::TimeStepping::unstable;

@@ -1,4 +1,4 @@
-#include "osculate/pairing/sampling.hpp"
+#include "osculate/pairing/point_normal.hpp"
 
 #include <numeric>
 #include <optional>
@@ -246,6 +246,14 @@ void point_areas(const SlaveSide<Dim>& side, std::type_identity_t<std::span<cons
 }
 
 template <int Dim>
+Vec<Dim> point_normal(const SlaveSide<Dim>& side, std::type_identity_t<std::span<const Vec<Dim>>> x,
+                      std::size_t i) {
+  const SlavePoint<Dim>& point = side.points[i];
+  if (sampled_at_nodes(side)) return nodal_normal(side, x, i);
+  return normal_at(side.boundary.facets[static_cast<std::size_t>(point.facet)], point.xi, x);
+}
+
+template <int Dim>
 void point_normals(const SlaveSide<Dim>& side, std::type_identity_t<std::span<const Vec<Dim>>> x,
                    std::vector<Vec<Dim>>& normals) {
   if (sampled_at_nodes(side)) {
@@ -253,9 +261,7 @@ void point_normals(const SlaveSide<Dim>& side, std::type_identity_t<std::span<co
     return;
   }
   normals.resize(side.points.size());
-  for (std::size_t i = 0; i < side.points.size(); ++i)
-    normals[i] = normal_at(side.boundary.facets[static_cast<std::size_t>(side.points[i].facet)],
-                           side.points[i].xi, x);
+  for (std::size_t i = 0; i < side.points.size(); ++i) normals[i] = point_normal<Dim>(side, x, i);
 }
 
 template void sample<2>(SlaveSide<2>&, const Sampling&, const CutBy<2>&);
@@ -264,6 +270,8 @@ template void point_areas<2>(const SlaveSide<2>&, std::span<const Vec2>, const A
                              std::vector<double>&, std::vector<std::vector<NodeGradient<2>>>*);
 template void point_areas<3>(const SlaveSide<3>&, std::span<const Vec3>, const AreaRule&,
                              std::vector<double>&, std::vector<std::vector<NodeGradient<3>>>*);
+template Vec2 point_normal<2>(const SlaveSide<2>&, std::span<const Vec2>, std::size_t);
+template Vec3 point_normal<3>(const SlaveSide<3>&, std::span<const Vec3>, std::size_t);
 template void point_normals<2>(const SlaveSide<2>&, std::span<const Vec2>, std::vector<Vec2>&);
 template void point_normals<3>(const SlaveSide<3>&, std::span<const Vec3>, std::vector<Vec3>&);
 

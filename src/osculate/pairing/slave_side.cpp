@@ -1,4 +1,4 @@
-#include "osculate/pairing/slave_side.hpp"
+#include "osculate/pairing/point_normal.hpp"
 
 #include <algorithm>
 #include <unordered_map>
@@ -96,22 +96,26 @@ void nodal_areas(const SlaveSide<2>& slave, std::span<const Vec2> x, const AreaR
   }
 }
 
-void nodal_normals(const SlaveSide<2>& slave, std::span<const Vec2> x, std::vector<Vec2>& normals) {
-  normals.assign(slave.nodes.size(), Vec2::Zero());
-  for (std::size_t i = 0; i < slave.nodes.size(); ++i) {
-    for (const Index f : slave.facets_of[i]) {
-      const Facet& facet = slave.boundary.facets[static_cast<std::size_t>(f)];
-      const auto k = static_cast<std::size_t>(
-          std::find(facet.nodes.begin(), facet.nodes.begin() + facet.count, slave.nodes[i]) -
-          facet.nodes.begin());
-      const double xi = k == 0   ? -1.0
-                        : k == 1 ? 1.0
-                                 : -1.0 + 2.0 * static_cast<double>(k - 1) / (facet.count - 1);
-      const Vec2 tangent = facet_jet(facet, xi, x).r1;
-      if (tangent.norm() > 0) normals[i] += turn(tangent.normalized());
-    }
-    if (normals[i].norm() > 1e-12) normals[i].normalize();
+Vec2 nodal_normal(const SlaveSide<2>& slave, std::span<const Vec2> x, std::size_t i) {
+  Vec2 normal = Vec2::Zero();
+  for (const Index f : slave.facets_of[i]) {
+    const Facet& facet = slave.boundary.facets[static_cast<std::size_t>(f)];
+    const auto k = static_cast<std::size_t>(
+        std::find(facet.nodes.begin(), facet.nodes.begin() + facet.count, slave.nodes[i]) -
+        facet.nodes.begin());
+    const double xi = k == 0   ? -1.0
+                      : k == 1 ? 1.0
+                               : -1.0 + 2.0 * static_cast<double>(k - 1) / (facet.count - 1);
+    const Vec2 tangent = facet_jet(facet, xi, x).r1;
+    if (tangent.norm() > 0) normal += turn(tangent.normalized());
   }
+  if (normal.norm() > 1e-12) normal.normalize();
+  return normal;
+}
+
+void nodal_normals(const SlaveSide<2>& slave, std::span<const Vec2> x, std::vector<Vec2>& normals) {
+  normals.resize(slave.nodes.size());
+  for (std::size_t i = 0; i < normals.size(); ++i) normals[i] = nodal_normal(slave, x, i);
 }
 
 }  // namespace osculate::pairing

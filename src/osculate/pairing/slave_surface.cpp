@@ -5,7 +5,7 @@
 #include "osculate/cell/quadrature.hpp"
 #include "osculate/cell/shape.hpp"
 #include "osculate/pairing/area_element.hpp"
-#include "osculate/pairing/slave_side.hpp"
+#include "osculate/pairing/point_normal.hpp"
 
 namespace osculate::pairing {
 
@@ -162,6 +162,20 @@ void nodal_normals(const SlaveSide<3>& slave, std::span<const Vec3> x, std::vect
     if (normals[i].norm() > 1e-12) normals[i].normalize();
   }
   normals.resize(count);
+}
+
+Vec3 nodal_normal(const SlaveSide<3>& slave, std::span<const Vec3> x, std::size_t i) {
+  Vec3 normal = Vec3::Zero();
+  for (const Index f : slave.facets_of[i]) {
+    const SurfaceFacet& facet = slave.boundary.facets[static_cast<std::size_t>(f)];
+    const Vec2 xi =
+        is_plane_triangle(facet)
+            ? Vec2(Vec2::Zero())
+            : cell::area_node(facet.type, static_cast<int>(local_node(facet, slave.nodes[i])));
+    normal += facet_normal(facet, xi, x);
+  }
+  if (normal.norm() > 1e-12) normal.normalize();
+  return normal;
 }
 
 }  // namespace osculate::pairing
