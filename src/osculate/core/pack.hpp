@@ -13,14 +13,29 @@
 
 namespace osculate::core {
 
-/// Four numbers that are calculated with at once, such as those of four cells. Each is what the
+/// Registers of N numbers.
+template <int N>
+struct PackRegisters;
+template <>
+struct PackRegisters<4> {
+  using Values __attribute__((vector_size(32))) = double;
+  using Flags __attribute__((vector_size(32))) = long long;
+};
+template <>
+struct PackRegisters<8> {
+  using Values __attribute__((vector_size(64))) = double;
+  using Flags __attribute__((vector_size(64))) = long long;
+};
+
+/// N numbers (4, 8) that are calculated with at once, such as those of N cells. Each is what the
 /// same operations with numbers give, but for the last digits of logarithms.
 ///
 /// Tested by  tests/unit/core/test_pack.cpp
-struct Pack {
-  static constexpr int count = 4;
-  using Values __attribute__((vector_size(32))) = double;
-  using Flags __attribute__((vector_size(32))) = long long;
+template <int N>
+struct BasicPack {
+  static constexpr int count = N;
+  using Values = typename PackRegisters<N>::Values;
+  using Flags = typename PackRegisters<N>::Flags;
   /// The answer to a comparison.
   struct Mask {
     Flags v;
@@ -29,48 +44,57 @@ struct Pack {
 
   Values v;
 
-  Pack() = default;
-  Pack(double x) : v{x, x, x, x} {}  // NOLINT(google-explicit-constructor): constants are numbers
-  Pack(double a, double b, double c, double d) : v{a, b, c, d} {}
-  static Pack of(const Values& values) {
-    Pack p;
+  BasicPack() = default;
+  BasicPack(double x) {  // NOLINT(google-explicit-constructor): constants are numbers
+    if constexpr (N == 4)
+      v = Values{x, x, x, x};
+    else
+      v = Values{x, x, x, x, x, x, x, x};
+  }
+  BasicPack(double a, double b, double c, double d) requires(N == 4) : v{a, b, c, d} {}
+  static BasicPack of(const Values& values) {
+    BasicPack p;
     p.v = values;
     return p;
   }
-  static Pack Zero() { return {0.0}; }
+  static BasicPack Zero() { return {0.0}; }
   [[nodiscard]] double operator[](int lane) const { return v[lane]; }
   void set(int lane, double x) { v[lane] = x; }
 
-  Pack& operator+=(const Pack& b) {
+  BasicPack& operator+=(const BasicPack& b) {
     v += b.v;
     return *this;
   }
-  Pack& operator-=(const Pack& b) {
+  BasicPack& operator-=(const BasicPack& b) {
     v -= b.v;
     return *this;
   }
-  Pack& operator*=(const Pack& b) {
+  BasicPack& operator*=(const BasicPack& b) {
     v *= b.v;
     return *this;
   }
-  friend Pack operator+(const Pack& a, const Pack& b) { return of(a.v + b.v); }
-  friend Pack operator-(const Pack& a, const Pack& b) { return of(a.v - b.v); }
-  friend Pack operator-(const Pack& a) { return of(-a.v); }
-  friend Pack operator*(const Pack& a, const Pack& b) { return of(a.v * b.v); }
-  friend Pack operator/(const Pack& a, const Pack& b) { return of(a.v / b.v); }
-  friend Mask operator>(const Pack& a, const Pack& b) { return {a.v > b.v}; }
-  friend Mask operator<(const Pack& a, const Pack& b) { return {a.v < b.v}; }
+  friend BasicPack operator+(const BasicPack& a, const BasicPack& b) { return of(a.v + b.v); }
+  friend BasicPack operator-(const BasicPack& a, const BasicPack& b) { return of(a.v - b.v); }
+  friend BasicPack operator-(const BasicPack& a) { return of(-a.v); }
+  friend BasicPack operator*(const BasicPack& a, const BasicPack& b) { return of(a.v * b.v); }
+  friend BasicPack operator/(const BasicPack& a, const BasicPack& b) { return of(a.v / b.v); }
+  friend Mask operator>(const BasicPack& a, const BasicPack& b) { return {a.v > b.v}; }
+  friend Mask operator<(const BasicPack& a, const BasicPack& b) { return {a.v < b.v}; }
 
-  friend Pack abs(const Pack& a) { return of(a.v < 0 ? -a.v : a.v); }
-  friend Pack log(const Pack& a) {
-    Eigen::Array<double, count, 1> x;
-    std::memcpy(x.data(), &a.v, sizeof(a.v));
-    x = x.log().eval();
-    Pack out;
-    std::memcpy(&out.v, x.data(), sizeof(out.v));
+  friend BasicPack abs(const BasicPack& a) { return of(a.v < 0 ? -a.v : a.v); }
+  /// Four after four, so that the digits are the same whatever N is.
+  friend BasicPack log(const BasicPack& a) {
+    Eigen::Array<double, 4, 1> x;
+    BasicPack out;
+    for (int first = 0; first < N; first += 4) {
+      std::memcpy(x.data(), reinterpret_cast<const double*>(&a.v) + first, sizeof(x));
+      x = x.log().eval();
+      std::memcpy(reinterpret_cast<double*>(&out.v) + first, x.data(), sizeof(x));
+    }
     return out;
   }
 };
+using Pack = BasicPack<4>;
 
 /// Whether something holds for all numbers.
 [[nodiscard]] inline bool everywhere(const Pack::Mask& m) {
@@ -80,13 +104,25 @@ struct Pack {
   return (m.v[0] & m.v[1] & m.v[2] & m.v[3]) != 0;
 #endif
 }
+[[nodiscard]] inline bool everywhere(const BasicPack<8>::Mask& m) {
+#ifdef __AVX512DQ__
+  return _mm512_movepi64_mask(reinterpret_cast<__m512i>(m.v)) == 255;
+#else
+  long long all = -1;
+  for (int lane = 0; lane < 8; ++lane) all &= m.v[lane];
+  return all != 0;
+#endif
+}
 template <class Derived>
 [[nodiscard]] bool everywhere(const Eigen::ArrayBase<Derived>& m) {
   return m.all();
 }
 /// Each by itself.
-[[nodiscard]] inline Pack cube_root_of(const Pack& a) {
-  return {std::cbrt(a[0]), std::cbrt(a[1]), std::cbrt(a[2]), std::cbrt(a[3])};
+template <int N>
+[[nodiscard]] BasicPack<N> cube_root_of(const BasicPack<N>& a) {
+  BasicPack<N> out;
+  for (int lane = 0; lane < N; ++lane) out.set(lane, std::cbrt(a[lane]));
+  return out;
 }
 template <int Q>
 [[nodiscard]] Eigen::Array<double, Q, 1> cube_root_of(const Eigen::Array<double, Q, 1>& a) {

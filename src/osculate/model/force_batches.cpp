@@ -72,6 +72,7 @@ ForceBatches<Dim>::ForceBatches(const BulkTerm<Dim>& bulk)
     std::optional<solid::Batch<Dim>> batch = solid::batch_of<Dim>(
         section_on(*kind.first, kind.second), kind.second, reference_of(bulk.model, first.nodes));
     if (!batch) continue;
+    eights_.push_back(solid::eight_cells<Dim>(*batch));
     kinds_.push_back(std::move(*batch));
     sort_along_curve(bulk, of_kind);
     take(bulk, kinds_.size() - 1, of_kind);
@@ -215,6 +216,25 @@ bool ForceBatches<Dim>::forces(std::size_t number, const Nodal& u, Values& out) 
   gather(four, u, along);
   return solid::batch_forces<Dim>(kinds_[four.kind], &numbers_[four.numbers], along.data(),
                                   out.data());
+}
+
+template <int Dim>
+bool ForceBatches<Dim>::goes_with_next(std::size_t number) const {
+  const Four& four = fours_[number];
+  return eights_[four.kind] && number + 1 < count() && (number + 1) % fours_a_part != 0 &&
+         fours_[number + 1].kind == four.kind;
+}
+
+template <int Dim>
+bool ForceBatches<Dim>::forces(std::size_t number, const Nodal& u, Values& out,
+                               Values& of_next) const {
+  const Four &four = fours_[number], &next = fours_[number + 1];
+  Values along, along_next;
+  gather(four, u, along);
+  gather(next, u, along_next);
+  return solid::forces_of_eight(*eights_[four.kind],
+                                {&numbers_[four.numbers], &numbers_[next.numbers]},
+                                {along.data(), along_next.data()}, {out.data(), of_next.data()});
 }
 
 template <int Dim>

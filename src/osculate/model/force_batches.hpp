@@ -7,6 +7,7 @@
 
 #include "osculate/model/terms/bulk_term.hpp"
 #include "osculate/solid/batch.hpp"
+#include "osculate/solid/batch_wide.hpp"
 
 namespace osculate::model {
 
@@ -65,6 +66,10 @@ class ForceBatches {
   /// Formula    f(u - u_0) , u_0 the displacement of the first node: what all nodes have in common
   ///            leaves no rounding in the sum of the forces
   [[nodiscard]] bool forces(std::size_t four, const Nodal& u, Values& out) const;
+  /// Whether this batch and the next one can be taken at once (batch_wide.hpp).
+  [[nodiscard]] bool goes_with_next(std::size_t four) const;
+  /// Those of both, with the same bits.
+  [[nodiscard]] bool forces(std::size_t four, const Nodal& u, Values& out, Values& of_next) const;
   /// Adds them to those of the part.
   void add(std::size_t four, const Values& forces, Nodal& sum) const;
   /// Stored energy of a batch. False as above.
@@ -98,6 +103,7 @@ class ForceBatches {
   void make_parts(const BulkTerm<Dim>& bulk);
 
   std::vector<solid::Batch<Dim>> kinds_;
+  std::vector<std::optional<solid::EightCells>> eights_;  ///< likewise
   std::vector<Four> fours_;
   std::vector<core::Pack> numbers_;
   std::vector<std::size_t> others_;

@@ -171,9 +171,12 @@ std::ptrdiff_t BasicSystem<Dim>::Impl::Explicit::add_part(std::size_t part, cons
   batches.gather(part, u, with.along);
   with.force.assign(with.along.size(), core::Pack::Zero());
   const auto fours = batches.fours(part), others = batches.alone(part);
-  typename ForceBatches<Dim>::Values force;
+  typename ForceBatches<Dim>::Values force, of_next;
   for (std::size_t f = fours.begin; f < fours.end; ++f) {
-    if (batches.forces(f, with.along, force)) {
+    if (batches.goes_with_next(f) && batches.forces(f, with.along, force, of_next)) {
+      batches.add(f, force, with.force);
+      batches.add(++f, of_next, with.force);
+    } else if (batches.forces(f, with.along, force)) {
       batches.add(f, force, with.force);
     } else {
       for (const std::size_t cell : batches.jobs(f)) alone(cell);

@@ -196,8 +196,8 @@ bool batch_forces(const Batch<Dim>& batch, const Pack* numbers, const Pack* u, P
       batches::linear_forces<Dim>(batch, depth, numbers, u, force);
       return true;
     case BatchKind::one_point:
-      return batches::one_point_forces<Dim>(batch, mode_moduli(batch.section), depth, numbers, u,
-                                            force);
+      return batches::one_point_forces<Dim>(law, batch.section.kinematics == Kinematics::finite,
+                                            mode_moduli(batch.section), depth, numbers, u, force);
     case BatchKind::points:
       return batch.section.formulation == Formulation::bbar
                  ? batches::points_forces<true, Dim>(law, depth, numbers, u, force)
@@ -205,6 +205,32 @@ bool batch_forces(const Batch<Dim>& batch, const Pack* numbers, const Pack* u, P
     default:
       return batches::simplex_forces<Dim>(batch, numbers, u, force);
   }
+}
+
+bool has_eight_lanes() {
+#ifdef __x86_64__
+  return built_for_eight && __builtin_cpu_supports("avx512f") &&
+         __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
+         __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd");
+#else
+  return false;
+#endif
+}
+
+template <int Dim>
+std::optional<EightCells> eight_cells(const Batch<Dim>& batch) {
+  const auto* const law = std::get_if<material::NeoHooke>(&batch.section.law);
+  const bool kind = batch.kind == BatchKind::one_point || batch.kind == BatchKind::points;
+  if (Dim == 2 || !law || !kind || batch.section.kinematics != Kinematics::finite ||
+      !has_eight_lanes())
+    return {};
+  EightCells out;
+  out.one_point = batch.kind == BatchKind::one_point;
+  out.mean = batch.section.formulation == Formulation::bbar;
+  out.young = law->young;
+  out.poisson = law->poisson;
+  if (out.one_point) out.moduli = mode_moduli(batch.section);
+  return out;
 }
 
 /// Small strains: f . u / 2, of a linear law.
@@ -228,9 +254,9 @@ bool batch_energy(const Batch<Dim>& batch, const Pack* numbers, const Pack* u, P
     energy = batches::one_point_energy<Dim>(batch, mode_moduli(batch.section), depth, numbers, u);
     return true;
   }
-  batches::Matrix<Dim> h;
-  batches::simplex_gradient<Dim>(numbers + 1, u, h);
-  energy = *numbers * batches::gradient_energy<Dim>(batch, h);
+  batches::Matrix<Dim, Pack> h;
+  batches::simplex_gradient<Dim, Pack>(numbers + 1, u, h);
+  energy = *numbers * batches::gradient_energy<Dim, Pack>(batch, h);
   return true;
 }
 
@@ -241,6 +267,8 @@ bool linear_batch(const Batch<Dim>& batch) {
 
 template bool batch_energy(const Batch<2>&, const Pack*, const Pack*, Pack&);
 template bool batch_energy(const Batch<3>&, const Pack*, const Pack*, Pack&);
+template std::optional<EightCells> eight_cells(const Batch<2>&);
+template std::optional<EightCells> eight_cells(const Batch<3>&);
 template bool linear_batch(const Batch<2>&);
 template bool linear_batch(const Batch<3>&);
 template std::optional<Batch<2>> batch_of(const Section<2>&, cell::CellType, const Coordinates<2>&);

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "osculate/core/pack.hpp"
+#include "osculate/solid/batch_wide.hpp"
 #include "osculate/solid/element.hpp"
 
 namespace osculate::solid {
@@ -54,6 +55,11 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] bool batch_forces(const Batch<Dim>& batch, const core::Pack* numbers,
                                 const core::Pack* u, core::Pack* force);
+
+/// What `forces_of_eight` needs of such cells; nothing where it does not take them, or the
+/// processor has no registers for it.
+template <int Dim>
+[[nodiscard]] std::optional<EightCells> eight_cells(const Batch<Dim>& batch);
 
 /// The stored energy of four cells, up to round-off that of `cell_energy`.
 template <int Dim>

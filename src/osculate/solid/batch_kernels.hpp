@@ -1,5 +1,6 @@
 #pragma once
-// The forces of four cells at once (batch.hpp). For batch.cpp.
+// The forces of several cells at once (batch.hpp), as many as a Pack has numbers. For batch.cpp and
+// batch_wide.cpp.
 #include <array>
 
 #include "osculate/material/pointwise.hpp"
@@ -9,10 +10,9 @@
 
 namespace osculate::solid::batches {
 
-using core::Pack;
-template <int Dim>
+template <int Dim, class Pack>
 using Matrix = PointMatrix<Dim, Pack>;
-template <int Dim>
+template <int Dim, class Pack>
 using Strains = std::array<Pack, static_cast<std::size_t>(components<Dim>)>;
 
 /// The products beyond linear ones, as reduced.hpp counts them: without xi_a, and all three.
@@ -27,7 +27,7 @@ inline constexpr int mode_count = Dim == 2 ? 1 : 4;
 
 /// Factors of the products of coordinates in X: numbers of a quad4 or hex8, direction by direction,
 /// but the constant ones.
-template <int Dim>
+template <int Dim, class Pack>
 struct Factors {
   const Pack* numbers;
   const Pack& operator()(std::size_t product, int i) const {
@@ -44,19 +44,21 @@ struct Factors {
 ///            V = 8 (c_1 . c_2 x c_3 + (c_1 . c_12 x c_13 + c_2 . c_23 x c_12 + c_3 . c_13 x c_23)
 ///            / 3)
 /// Source     V is the integral of det dX/dxi
-template <int Dim>
+template <int Dim, class Pack>
 struct MeanSlopes {
   static constexpr int count = (1 << Dim) - 2;  ///< from product 1 on
   std::array<std::array<Pack, static_cast<std::size_t>(Dim)>, count + 1> of;
   Pack volume;
 };
-inline void set_mean_slopes(const Factors<2>& c, double depth, MeanSlopes<2>& out) {
+template <class Pack>
+inline void set_mean_slopes(const Factors<2, Pack>& c, double depth, MeanSlopes<2, Pack>& out) {
   const Pack area = c(1, 0) * c(2, 1) - c(1, 1) * c(2, 0), scale = 1 / area;
   out.volume = 4 * depth * area;
   out.of[1] = {scale * c(2, 1), -scale * c(2, 0)};
   out.of[2] = {-scale * c(1, 1), scale * c(1, 0)};
 }
-inline void set_mean_slopes(const Factors<3>& c, double depth, MeanSlopes<3>& out) {
+template <class Pack>
+inline void set_mean_slopes(const Factors<3, Pack>& c, double depth, MeanSlopes<3, Pack>& out) {
   repeat<3>([&](auto axis) {
     constexpr std::size_t i = 1U << axis(), j = 1U << (axis() + 1) % 3, k = 1U << (axis() + 2) % 3;
     repeat<3>([&](auto row) {
@@ -76,10 +78,10 @@ inline void set_mean_slopes(const Factors<3>& c, double depth, MeanSlopes<3>& ou
 }
 
 /// Factors of the products of coordinates in the displacements, times 2^Dim.
-template <int Dim>
+template <int Dim, class Pack>
 using Products = std::array<OfCorners<Dim, Pack>, static_cast<std::size_t>(Dim)>;
-template <int Dim>
-inline void set_products(const Pack* u, Products<Dim>& out) {
+template <int Dim, class Pack>
+inline void set_products(const Pack* u, Products<Dim, Pack>& out) {
   repeat<Dim>([&](auto i) {
     repeat<1 << Dim>([&](auto c) { out[i()][c()] = u[Dim * corner_node<Dim>[c()] + i()]; });
     to_products(out[i()]);
@@ -87,40 +89,41 @@ inline void set_products(const Pack* u, Products<Dim>& out) {
 }
 
 /// What a mean displacement gradient and the modes that it does not see do.
-template <int Dim>
+template <int Dim, class Pack>
 struct Uniform {
   static constexpr int modes = mode_count<Dim>;
   static constexpr double share = 1.0 / (1 << Dim);
-  MeanSlopes<Dim> mean;
-  Products<Dim> product;
-  Matrix<Dim> h;
+  MeanSlopes<Dim, Pack> mean;
+  Products<Dim, Pack> product;
+  Matrix<Dim, Pack> h;
   std::array<Pack, static_cast<std::size_t>(Dim* modes)> q;  ///< gamma_a . u_i at Dim a + i
 };
-template <int Dim>
-inline void measure(const Factors<Dim>& c, double depth, const Pack* u, Uniform<Dim>& out) {
+template <int Dim, class Pack>
+inline void measure(const Factors<Dim, Pack>& c, double depth, const Pack* u,
+                    Uniform<Dim, Pack>& out) {
   set_mean_slopes(c, depth, out.mean);
-  set_products<Dim>(u, out.product);
+  set_products<Dim, Pack>(u, out.product);
   repeat<Dim>([&](auto i) {
     repeat<Dim>([&](auto j) {
       Pack sum = out.product[i()][1] * out.mean.of[1][j()];
-      repeat<MeanSlopes<Dim>::count - 1>(
+      repeat<MeanSlopes<Dim, Pack>::count - 1>(
           [&](auto m) { sum += out.product[i()][m() + 2] * out.mean.of[m() + 2][j()]; });
-      out.h(i(), j()) = Uniform<Dim>::share * sum;
+      out.h(i(), j()) = Uniform<Dim, Pack>::share * sum;
     });
   });
   repeat<mode_count<Dim>>([&](auto a) {
     repeat<Dim>([&](auto i) {
-      Pack sum = Uniform<Dim>::share * out.product[i()][mode_product<Dim>[a()]];
+      Pack sum = Uniform<Dim, Pack>::share * out.product[i()][mode_product<Dim>[a()]];
       repeat<Dim>([&](auto j) { sum -= c(mode_product<Dim>[a()], j()) * out.h(i(), j()); });
       out.q[Dim * a() + i()] = sum;
     });
   });
 }
 /// Forces of what works on the gradient (volume included), on the modes and on the linear products.
-template <int Dim>
-inline void spread(const Factors<Dim>& c, const MeanSlopes<Dim>& mean, Matrix<Dim>& on_gradient,
-                   const decltype(Uniform<Dim>::q)& on_mode, const Matrix<Dim>* on_linear,
-                   Pack* force) {
+template <int Dim, class Pack>
+inline void spread(const Factors<Dim, Pack>& c, const MeanSlopes<Dim, Pack>& mean,
+                   Matrix<Dim, Pack>& on_gradient, const decltype(Uniform<Dim, Pack>::q)& on_mode,
+                   const Matrix<Dim, Pack>* on_linear, Pack* force) {
   repeat<mode_count<Dim>>([&](auto a) {
     repeat<Dim>([&](auto i) {
       repeat<Dim>([&](auto j) {
@@ -131,7 +134,7 @@ inline void spread(const Factors<Dim>& c, const MeanSlopes<Dim>& mean, Matrix<Di
   repeat<Dim>([&](auto i) {
     OfCorners<Dim, Pack> v;
     v.front() = v.back() = Pack::Zero();
-    repeat<MeanSlopes<Dim>::count>([&](auto m) {
+    repeat<MeanSlopes<Dim, Pack>::count>([&](auto m) {
       Pack sum = on_gradient(i(), 0) * mean.of[m() + 1][0];
       repeat<Dim - 1>(
           [&](auto j) { sum += on_gradient(i(), j() + 1) * mean.of[m() + 1][j() + 1]; });
@@ -139,15 +142,15 @@ inline void spread(const Factors<Dim>& c, const MeanSlopes<Dim>& mean, Matrix<Di
     });
     if (on_linear) repeat<Dim>([&](auto j) { v[std::size_t{1} << j()] += (*on_linear)(i(), j()); });
     repeat<mode_count<Dim>>([&](auto a) { v[mode_product<Dim>[a()]] += on_mode[Dim * a() + i()]; });
-    repeat<(1 << Dim) - 1>([&](auto m) { v[m() + 1] *= Uniform<Dim>::share; });
+    repeat<(1 << Dim) - 1>([&](auto m) { v[m() + 1] *= Uniform<Dim, Pack>::share; });
     from_products(v);
     repeat<1 << Dim>([&](auto at) { force[Dim * corner_node<Dim>[at()] + i()] = v[at()]; });
   });
 }
 
 /// Small strain of a displacement gradient.
-template <int Dim>
-inline void small_strain(const Matrix<Dim>& h, Strains<Dim>& e) {
+template <int Dim, class Pack>
+inline void small_strain(const Matrix<Dim, Pack>& h, Strains<Dim, Pack>& e) {
   e[2] = Pack::Zero();
   for (int i = 0; i < Dim; ++i) {
     e[component(i, i)] = h(i, i);
@@ -156,21 +159,20 @@ inline void small_strain(const Matrix<Dim>& h, Strains<Dim>& e) {
 }
 
 /// Weighted stress that works on the gradient at one point; false: no answer.
-template <int Dim>
-[[nodiscard]] inline bool work_on_gradient(const Section<Dim>& section, const Matrix<Dim>& h,
-                                           const Pack& volume, Matrix<Dim>& out) {
-  Strains<Dim> strain, stress;
-  Matrix<Dim> f = h;
-  const bool finite = section.kinematics == Kinematics::finite;
+template <int Dim, class Pack, class Law>
+[[nodiscard]] inline bool work_on_gradient(const Law& law, bool finite, const Matrix<Dim, Pack>& h,
+                                           const Pack& volume, Matrix<Dim, Pack>& out) {
+  Strains<Dim, Pack> strain, stress;
+  Matrix<Dim, Pack> f = h;
   if (finite) {
     for (int i = 0; i < Dim; ++i) f(i, i) += 1;
-    Matrix<Dim> cofactor;
+    Matrix<Dim, Pack> cofactor;
     if (!core::everywhere(cofactors(f, cofactor) > 0)) return false;
     green_lagrange(h, strain);
   } else {
-    small_strain<Dim>(h, strain);
+    small_strain<Dim, Pack>(h, strain);
   }
-  if (!material::stresses<components<Dim>>(section.law, 1, &strain, &stress)) return false;
+  if (!material::stresses<components<Dim>>(law, 1, &strain, &stress)) return false;
   if (finite) {
     weighted_first_stress(f, stress, volume, out);
     return true;
@@ -180,21 +182,21 @@ template <int Dim>
   return true;
 }
 
-template <int Dim>
+template <int Dim, class Pack>
 [[gnu::flatten]] void linear_forces(const Batch<Dim>& batch, double depth, const Pack* numbers,
                                     const Pack* u, Pack* force) {
   constexpr int C = components<Dim>, M = Dim * mode_count<Dim>;
-  const Factors<Dim> c{numbers};
-  Uniform<Dim> at;
+  const Factors<Dim, Pack> c{numbers};
+  Uniform<Dim, Pack> at;
   measure(c, depth, u, at);
-  Strains<Dim> strain, stress;
-  small_strain<Dim>(at.h, strain);
+  Strains<Dim, Pack> strain, stress;
+  small_strain<Dim, Pack>(at.h, strain);
   for (int i = 0; i < C; ++i) {
     Pack sum = batch.stiffness(i, 0) * strain[0];
     for (int j = 1; j < C; ++j) sum += batch.stiffness(i, j) * strain[static_cast<std::size_t>(j)];
     stress[static_cast<std::size_t>(i)] = at.mean.volume * sum;
   }
-  Matrix<Dim> on_gradient;
+  Matrix<Dim, Pack> on_gradient;
   for (int i = 0; i < Dim; ++i)
     for (int j = 0; j < Dim; ++j) on_gradient(i, j) = stress[component(i, j)];
   std::array<Pack, M> w;
@@ -211,17 +213,17 @@ template <int Dim>
     });
     w[r()] = sum;
   });
-  spread<Dim>(c, at.mean, on_gradient, w, nullptr, force);
+  spread<Dim, Pack>(c, at.mean, on_gradient, w, nullptr, force);
 }
 
 /// What the modes of reduced.hpp do: see there for the energy.
 ///
 /// Input      base: g_i in columns; inverse: 1/|G_i|^2; along: E' V, shear: mu V
 /// Returns    what works on q_a (at Dim a + i); what works on g_i, in columns
-template <int Dim>
-inline void mode_work(const decltype(Uniform<Dim>::q)& q, const Matrix<Dim>& base,
+template <int Dim, class Pack>
+inline void mode_work(const decltype(Uniform<Dim, Pack>::q)& q, const Matrix<Dim, Pack>& base,
                       const Pack* inverse, const Pack& along, const Pack& shear,
-                      decltype(Uniform<Dim>::q)& on_mode, Matrix<Dim>& on_base) {
+                      decltype(Uniform<Dim, Pack>::q)& on_mode, Matrix<Dim, Pack>& on_base) {
   constexpr int M = mode_count<Dim>;
   std::array<std::array<Pack, Dim>, M> s;  // Q_ai, then what works on them
   repeat<M>([&](auto a) {
@@ -264,12 +266,11 @@ inline void mode_work(const decltype(Uniform<Dim>::q)& q, const Matrix<Dim>& bas
 }
 
 /// Input      moduli: E' and mu, as reduced.hpp has them
-template <int Dim>
-inline void one_point_modes(const Batch<Dim>& batch, const std::array<double, 2>& moduli,
-                            const Factors<Dim>& c, const Uniform<Dim>& at,
-                            decltype(Uniform<Dim>::q)& on_mode, Matrix<Dim>& on_base) {
-  Matrix<Dim> base;
-  const bool finite = batch.section.kinematics == Kinematics::finite;
+template <int Dim, class Pack>
+inline void one_point_modes(bool finite, const std::array<double, 2>& moduli,
+                            const Factors<Dim, Pack>& c, const Uniform<Dim, Pack>& at,
+                            decltype(Uniform<Dim, Pack>::q)& on_mode, Matrix<Dim, Pack>& on_base) {
+  Matrix<Dim, Pack> base;
   for (int i = 0; i < Dim; ++i)
     for (int j = 0; j < Dim; ++j) base(i, j) = c(std::size_t{1} << static_cast<unsigned>(j), i);
   std::array<Pack, Dim> inverse;
@@ -281,45 +282,44 @@ inline void one_point_modes(const Batch<Dim>& batch, const std::array<double, 2>
   if (finite)
     repeat<Dim>([&](auto i) {
       repeat<Dim>([&](auto j) {
-        base(i(), j()) += Uniform<Dim>::share * at.product[i()][std::size_t{1} << j()];
+        base(i(), j()) += Uniform<Dim, Pack>::share * at.product[i()][std::size_t{1} << j()];
       });
     });
-  mode_work<Dim>(at.q, base, inverse.data(), moduli[0] * at.mean.volume, moduli[1] * at.mean.volume,
-                 on_mode, on_base);
+  mode_work<Dim, Pack>(at.q, base, inverse.data(), moduli[0] * at.mean.volume,
+                       moduli[1] * at.mean.volume, on_mode, on_base);
 }
-template <int Dim>
-[[nodiscard, gnu::flatten]] bool one_point_forces(const Batch<Dim>& batch,
+template <int Dim, class Pack, class Law>
+[[nodiscard, gnu::flatten]] bool one_point_forces(const Law& law, bool finite,
                                                   const std::array<double, 2>& moduli, double depth,
                                                   const Pack* numbers, const Pack* u, Pack* force) {
-  const Factors<Dim> c{numbers};
-  Uniform<Dim> at;
+  const Factors<Dim, Pack> c{numbers};
+  Uniform<Dim, Pack> at;
   measure(c, depth, u, at);
-  Matrix<Dim> on_gradient, on_base;
-  if (!work_on_gradient<Dim>(batch.section, at.h, at.mean.volume, on_gradient)) return false;
-  const bool finite = batch.section.kinematics == Kinematics::finite;
+  Matrix<Dim, Pack> on_gradient, on_base;
+  if (!work_on_gradient<Dim, Pack>(law, finite, at.h, at.mean.volume, on_gradient)) return false;
   decltype(at.q) on_mode;
-  one_point_modes<Dim>(batch, moduli, c, at, on_mode, on_base);
-  spread<Dim>(c, at.mean, on_gradient, on_mode, finite ? &on_base : nullptr, force);
+  one_point_modes<Dim, Pack>(finite, moduli, c, at, on_mode, on_base);
+  spread<Dim, Pack>(c, at.mean, on_gradient, on_mode, finite ? &on_base : nullptr, force);
   return true;
 }
 
 /// Energy per volume of a finite displacement gradient.
-template <int Dim>
-[[nodiscard]] Pack gradient_energy(const Batch<Dim>& batch, const Matrix<Dim>& h) {
-  Strains<Dim> strain;
+template <int Dim, class Pack>
+[[nodiscard]] Pack gradient_energy(const Batch<Dim>& batch, const Matrix<Dim, Pack>& h) {
+  Strains<Dim, Pack> strain;
   green_lagrange(h, strain);
   return material::stored_energies<components<Dim>>(batch.section.law, strain);
 }
 /// In finite strain; of a quadratic form in the modes  sum_a (work on q_a) . q_a / 2.
-template <int Dim>
+template <int Dim, class Pack>
 [[nodiscard]] Pack one_point_energy(const Batch<Dim>& batch, const std::array<double, 2>& moduli,
                                     double depth, const Pack* numbers, const Pack* u) {
-  const Factors<Dim> c{numbers};
-  Uniform<Dim> at;
+  const Factors<Dim, Pack> c{numbers};
+  Uniform<Dim, Pack> at;
   measure(c, depth, u, at);
   decltype(at.q) on_mode;
-  Matrix<Dim> on_base;
-  one_point_modes<Dim>(batch, moduli, c, at, on_mode, on_base);
+  Matrix<Dim, Pack> on_base;
+  one_point_modes<Dim, Pack>(true, moduli, c, at, on_mode, on_base);
   Pack sum = Pack::Zero();
   for (std::size_t m = 0; m < on_mode.size(); ++m) sum += on_mode[m] * at.q[m];
   return at.mean.volume * gradient_energy(batch, at.h) + 0.5 * sum;
@@ -328,8 +328,8 @@ template <int Dim>
 /// Displacement gradient of a tri3 or tet4.
 ///
 /// Input      gradient: dN_k/dX_j at Dim k + j
-template <int Dim>
-inline void simplex_gradient(const Pack* gradient, const Pack* u, Matrix<Dim>& h) {
+template <int Dim, class Pack>
+inline void simplex_gradient(const Pack* gradient, const Pack* u, Matrix<Dim, Pack>& h) {
   repeat<Dim>([&](auto i) {
     repeat<Dim>([&](auto j) {
       Pack sum = u[i()] * gradient[j()];
@@ -339,14 +339,16 @@ inline void simplex_gradient(const Pack* gradient, const Pack* u, Matrix<Dim>& h
     });
   });
 }
-template <int Dim>
+template <int Dim, class Pack>
 [[nodiscard, gnu::flatten]] bool simplex_forces(const Batch<Dim>& batch, const Pack* numbers,
                                                 const Pack* u, Pack* force) {
   const Pack& volume = *numbers;
   const Pack* const gradient = numbers + 1;
-  Matrix<Dim> h, work;
-  simplex_gradient<Dim>(gradient, u, h);
-  if (!work_on_gradient<Dim>(batch.section, h, volume, work)) return false;
+  Matrix<Dim, Pack> h, work;
+  simplex_gradient<Dim, Pack>(gradient, u, h);
+  if (!work_on_gradient<Dim, Pack>(batch.section.law,
+                                   batch.section.kinematics == Kinematics::finite, h, volume, work))
+    return false;
   for (int k = 0; k <= Dim; ++k)
     for (int i = 0; i < Dim; ++i) {
       Pack sum = work(i, 0) * gradient[Dim * k];

@@ -181,6 +181,58 @@ TEST(Batch, ACellTurnedInsideOutIsTold) {
   }
 }
 
+/// Two batches at once, where the processor has 512 bits: not a bit differs, and what has no answer
+/// there has none here.
+TEST(Batch, EightAtOnceHaveTheBitsOfFour) {
+  if (!has_eight_lanes()) GTEST_SKIP() << "no AVX-512 here";
+  for (const Formulation formulation : {Formulation::full, Formulation::bbar, Formulation::reduced})
+    for (const double size : {0.1, 1e-3, 1e-7}) {
+      const auto section = section_of<3>(Kinematics::finite, formulation, soft);
+      const auto batch = batch_of<3>(section, CellType::hex8, cell_number<3>(CellType::hex8, 0, 1));
+      ASSERT_TRUE(batch);
+      const std::optional<EightCells> eight = eight_cells<3>(*batch);
+      ASSERT_TRUE(eight);
+      std::array<std::vector<Pack>, 2> numbers, u, four, wide;
+      for (std::size_t half = 0; half < 2; ++half) {
+        numbers[half].resize(batch->kept);
+        for (auto* const values : {&u[half], &four[half], &wide[half]}) values->resize(24);
+        for (int lane = 0; lane < Pack::count; ++lane) {
+          const int number = lane + 4 * static_cast<int>(half);
+          const auto v = displacement_number<3>(CellType::hex8, number, size);
+          ASSERT_TRUE(keep_in<3>(*batch, cell_number<3>(CellType::hex8, number, 1), lane,
+                                 numbers[half].data()));
+          for (int d = 0; d < 24; ++d)
+            u[half][static_cast<std::size_t>(d)].set(lane, v(d / 3, d % 3));
+        }
+        ASSERT_TRUE(
+            batch_forces<3>(*batch, numbers[half].data(), u[half].data(), four[half].data()));
+      }
+      const auto at_once = [&] {
+        return forces_of_eight(*eight, {numbers[0].data(), numbers[1].data()},
+                               {u[0].data(), u[1].data()}, {wide[0].data(), wide[1].data()});
+      };
+      EXPECT_TRUE(at_once());
+      for (std::size_t half = 0; half < 2; ++half)
+        for (std::size_t d = 0; d < 24; ++d)
+          for (int lane = 0; lane < Pack::count; ++lane) {
+            EXPECT_NE(four[half][d][lane], 0);
+            EXPECT_EQ(four[half][d][lane], wide[half][d][lane]);
+          }
+      for (std::size_t k = 0; k < 8; ++k) u[1][3 * k].set(2, -30);
+      for (std::size_t k = 0; k < 4; ++k) u[1][3 * k].set(2, 30);
+      EXPECT_EQ(at_once(), batch_forces<3>(*batch, numbers[1].data(), u[1].data(), wide[1].data()));
+    }
+}
+TEST(Batch, EightOfOtherLawsAreNotTaken) {
+  const auto batch_with = [](const Section<3>& section) {
+    return *batch_of<3>(section, CellType::hex8, cell_number<3>(CellType::hex8, 0, 1));
+  };
+  EXPECT_FALSE(
+      eight_cells(batch_with(section_of<3>(Kinematics::finite, Formulation::full, stiff))));
+  EXPECT_FALSE(
+      eight_cells(batch_with(section_of<3>(Kinematics::small, Formulation::full, elastic))));
+}
+
 /// The slopes axis by axis are those of the shape functions, and their transposed is that.
 TEST(Batch, SlopesAreThoseOfTheShapeFunctions) {
   OfCorners<3, double> v{}, w{};
