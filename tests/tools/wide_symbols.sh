@@ -8,3 +8,7 @@ if echo "$names" | grep -vE 'BasicPack<8>|solid::forces_of_eight|solid::built_fo
   echo "these are shared with other sources"
   exit 1
 fi
+if objdump -h "$1" | grep -q '\.init_array'; then
+  echo "this runs on every processor when the program is loaded"
+  exit 1
+fi

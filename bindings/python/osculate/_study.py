@@ -62,10 +62,11 @@ class Table(list):
         """Columns with headings, as `osculate study` prints them."""
         if not self:
             return "an empty table"
-        cells = [[str(name) for name in self[0]]]
+        names = list(dict.fromkeys(name for row in self for name in row))  # rows may have columns of their own
+        cells = [[str(name) for name in names]]
         for row in self:
-            cells.append([f"{value:.6g}" if isinstance(value, (float, np.floating)) else str(value)
-                          for value in row.values()])
+            values = [row.get(name, "") for name in names]
+            cells.append([f"{value:.6g}" if isinstance(value, (float, np.floating)) else str(value) for value in values])
         wide = [max(len(line[k]) for line in cells) for k in range(len(cells[0]))]
         return "\n".join("  ".join(text.rjust(width) for text, width in zip(line, wide)) for line in cells)
 

@@ -59,12 +59,13 @@ std::string extent_text(const deck::BasicBuilt<Dim>& built, nlohmann::json& json
   return line("Size", "mesh", fmt::format("{}; {} nodes", all.text(Dim), mesh.nodes.size()));
 }
 
-/// Where Young's modulus is one in Pa and the mesh too long for metres, or one in MPa and the mesh
-/// too short for millimetres: a question, as either may be meant.
+/// Where Young's modulus is that of a metal or a hard plastic in Pa and the mesh longer than a
+/// bridge in metres, or that of a metal or ceramics in MPa and the mesh too short for millimetres:
+/// a question, as either may be meant.
 template <int Dim>
 std::string units_text(const model::BasicModel<Dim>& m) {
-  constexpr double pascal = 1e8, megapascal = 1e3;  // least moduli that are taken for such
-  constexpr double metres = 5, millimetres = 0.2;
+  constexpr double pascal = 1e9, megapascal = 2e4, most_megapascal = 1e6;
+  constexpr double metres = 50, millimetres = 0.2;
   Extent all;
   for (const Vec<Dim>& x : m.reference) {
     Vec3 place = Vec3::Zero();
@@ -80,7 +81,7 @@ std::string units_text(const model::BasicModel<Dim>& m) {
                 fmt::format("E of {:.3g}, if in Pa, goes with m: {:.3g} m long? (mm go with N and "
                             "MPa)",
                             young, size));
-  if (young >= megapascal && young < pascal && size > 0 && size < millimetres)
+  if (young >= megapascal && young <= most_megapascal && size > 0 && size < millimetres)
     return line("Units", "?",
                 fmt::format("E of {:.3g}, if in MPa, goes with mm: {:.3g} mm long? (m go with N "
                             "and Pa)",

@@ -101,7 +101,9 @@ void add_defaults(const Spec& spec, const SourceNode& node, const Place& place, 
 std::string after_unknown_key(const Spec& spec, const SourceEntry& entry) {
   const bool digits = !entry.key.empty() && entry.key.size() < 20 &&
                       entry.key.find_first_not_of("0123456789eE+-") == std::string::npos;
-  if (digits && entry.value.kind == Kind::nothing) return "; decimals are written with a point";
+  if (digits && entry.value.kind == Kind::nothing)
+    return entry.key.size() == 3 ? "; numbers are written without separators, decimals with a point"
+                                 : "; decimals are written with a point";
   return spec.hint;
 }
 

@@ -141,6 +141,7 @@ void refuse_other_files(const std::string& path, std::string_view text) {
   };
   if (text.starts_with("$MeshFormat"))
     refuse(fmt::format("a mesh of Gmsh; `osculate init {}` writes a model file for it", path));
+  if (text.starts_with("osculate:") || text.find("\nosculate:") != std::string_view::npos) return;
   if (ending == ".geo")
     refuse(
         fmt::format("a geometry of Gmsh; mesh it (`gmsh -3 {}`, in the plane -2), then `osculate "

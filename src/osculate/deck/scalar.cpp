@@ -36,8 +36,12 @@ std::string fault_of_number(std::string_view text) {
   const std::string_view rest = digits.substr(static_cast<std::size_t>(end - digits.data()));
   if (code != std::errc{} || rest.size() < 2) return {};
   const char next = rest[rest[0] == ' ' ? 1 : 0];
-  if (rest[0] == ',' && rest[1] >= '0' && rest[1] <= '9')
-    return "; decimals are written with a point";
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  if (rest[0] == ',' && is_digit(rest[1])) {
+    const bool thousands = rest.size() == 4 && std::all_of(rest.begin() + 1, rest.end(), is_digit);
+    return thousands ? "; numbers are written without separators, decimals with a point"
+                     : "; decimals are written with a point";
+  }
   if (rest[0] == ' ' && ((next >= 'a' && next <= 'z') || (next >= 'A' && next <= 'Z')))
     return "; numbers have no units: all are in one consistent system";
   return {};

@@ -88,7 +88,8 @@ void refresh(const PairDefinition<Dim>& pair, Points<Dim> x, bool with_tangent,
   out.apart = beyond_search(pair, x, out.boxes);
   if (pair.filter.limited()) {
     // The first evaluation gives the tree its shape, so that it does not depend on when they met.
-    if (!out.apart || out.tree.size() != out.boxes.size()) {
+    // Who asks for some points asks it how far they are, too.
+    if (!out.apart || only || out.tree.size() != out.boxes.size()) {
       refresh(pair.filter, pair.master, x, out.boxes, !out.planted, out.filter, out.tree);
       out.planted = true;
     }

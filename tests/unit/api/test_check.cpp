@@ -131,10 +131,14 @@ steps: [{{name: press, increments: 1, prescribe: [{{on: b.bottom, ux: 0, uy: 0}}
                                   to, to, young))
         .text;
   };
-  EXPECT_THAT(text("2.1e11", "20"), HasSubstr("Units         ?                E of 2.1e+11, if in "
-                                              "Pa, goes with m: 20 m long?"));
+  EXPECT_THAT(text("2.1e11", "200"), HasSubstr("Units         ?                E of 2.1e+11, if in "
+                                               "Pa, goes with m: 200 m long?"));
   EXPECT_THAT(text("2.1e5", "0.02"), HasSubstr("if in MPa, goes with mm: 0.02 mm long?"));
-  for (const auto& [young, to] : {std::pair{"2.1e5", "20"}, {"2.1e11", "0.02"}, {"10", "0.02"}})
+  for (const auto& [young, to] : {std::pair{"2.1e5", "20"},
+                                  {"2.1e11", "0.02"},
+                                  {"10", "0.02"},
+                                  {"3e6", "0.05"},
+                                  {"2.1e11", "12"}})
     EXPECT_THAT(text(young, to), Not(HasSubstr("Units")));
 }
 

@@ -6,9 +6,11 @@
 
 namespace osculate::api {
 namespace {
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 /// A block on another one, pressed down; `held`: what is prescribed of the lower one.
 std::string blocks(const std::string& held, const std::string& more = "") {
@@ -38,6 +40,23 @@ TEST(WithoutForce, ABodyThatIsHeldIsNotNamed) {
 
 TEST(WithoutForce, ABodyThatALoadPressesOnIsNotNamed) {
   EXPECT_THAT(warnings_of(blocks("", ", pressure: [{on: low.bottom, value: 0.1}]")), IsEmpty());
+  // Pressures without penetration are none of an automatic penalty.
+  std::string other = blocks("", ", pressure: [{on: low.bottom, value: 0.1}]");
+  const std::string at = "slave: up.bottom, ";
+  other.replace(other.find(at), at.size(),
+                at + "normal: {exponential: {pressure: 10, clearance: 0.01}}, ");
+  EXPECT_THAT(warnings_of(other), Not(Contains(HasSubstr("nowhere"))));
+}
+
+/// By a rigid body.
+TEST(WithoutForce, ABodyThatIsHeldByOthersIsNotNamed) {
+  std::string gripped = blocks("");
+  const std::string at = "contact: [";
+  gripped.replace(gripped.find(at), at.size(), "rigid: {grip: {set: low.bottom}}\n" + at);
+  const std::string prescribed = "prescribe: [";
+  gripped.replace(gripped.find(prescribed), prescribed.size(),
+                  prescribed + "{on: grip, ux: 0, uy: 0, rz: 0}, ");
+  EXPECT_THAT(warnings_of(gripped), Not(Contains(HasSubstr("nowhere"))));
 }
 
 }  // namespace

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 
 #include "osculate/pairing/far_points.hpp"
 #include "osculate/pairing/point_normal.hpp"
@@ -172,6 +174,12 @@ TEST(FarPoints, InThePlaneLikewise) {
   }
 }
 
+/// A quarter in each period, in a fifth of it.
+double quarter_turns(double phase) {
+  const double periods = phase / (2 * std::numbers::pi), whole = std::floor(periods);
+  return std::numbers::pi / 2 * (whole + std::clamp((periods - whole - 0.4) / 0.2, 0.0, 1.0));
+}
+
 /// Two plates of facets that move and bend, with a candidate filter.
 TEST(FarPoints, BeyondTheReachOfAFilterAreLeftOutWithTheSameBits) {
   PairSample3 s =
@@ -188,20 +196,24 @@ TEST(FarPoints, BeyondTheReachOfAFilterAreLeftOutWithTheSameBits) {
   pairing::connect(upper);
   s.pair.slave = pairing::make_slave_side(upper);
   pairing::prepare(s.pair, s.x);
-  for (const bool of_master : {false, true}) {  // who comes to whom, and with jumps
-    const double jump = of_master ? 15 : 0;
-    const Seen seen = expect_same<3>(s, 600, 50, 0.75, [&](int step, std::vector<Vec3>& x) {
+  // Who comes to whom, with jumps, and after both have turned far from each other.
+  for (const auto& kind : {std::pair(false, false), {true, false}, {false, true}}) {
+    const bool of_master = kind.first, turns = kind.second;
+    const double jump = of_master ? 15 : 0, high = turns ? 1.5 : 0.62;
+    const int period = turns ? 601 : 50;
+    const Seen seen = expect_same<3>(s, 600, period, 0.75, [&](int step, std::vector<Vec3>& x) {
       const double t = 0.01 * (step + jump * (step / 23));
       for (std::size_t n = 0; n < x.size(); ++n) {
         const Vec3& at = s.x[n];
         const bool up = n >= static_cast<std::size_t>(count);
-        const double down = 0.62 * std::cos(2.3 * t) - 0.5 - 0.06 * at.x();
+        const double down = high * (std::cos(2.3 * t) - 1) + 0.12 - 0.06 * at.x();
         const double bends = 0.05 * std::sin(3 * t + at.x());
         x[n] = at + Vec3(up ? 0.2 * std::sin(t) : 0.0, 0, 0);
         if (up)
           x[n].y() -= of_master ? bends : down;
         else
           x[n].y() += of_master ? down : bends;
+        if (turns) x[n] = Eigen::AngleAxisd(quarter_turns(2.3 * t), Vec3::UnitZ()) * x[n];
       }
     });
     EXPECT_GT(seen.touching, 200u);
