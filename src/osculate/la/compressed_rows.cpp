@@ -24,27 +24,19 @@ void multiply(const CompressedRows& a, const Eigen::VectorXd& x, int threads, Ei
 }
 
 void compress(const SparseMatrix& k, Symmetry symmetry, CompressedRows& a) {
-  const bool both = symmetry != Symmetry::unsymmetric;  // the upper triangle counts for both
-  const auto each = [&](const auto& take) {
-    for (Index i = 0; i < k.n; ++i)
-      for (Index e = k.row_start[as_size(i)]; e < k.row_start[as_size(i) + 1]; ++e) {
-        const Index j = k.column[as_size(e)];
-        if ((both && j < i) || (k.value[as_size(e)] == 0 && i != j)) continue;
-        take(i, j, k.value[as_size(e)]);
-        if (both && j > i) take(j, i, k.value[as_size(e)]);
-      }
-  };
   std::vector<Index> next(as_size(k.n) + 1, 0);
-  each([&](Index i, Index, double) { ++next[as_size(i) + 1]; });
+  for_each_entry(k, symmetry, [&](Index i, Index, double) { ++next[as_size(i) + 1]; });
   std::partial_sum(next.begin(), next.end(), next.begin());
   a.resize(k.n, k.n);
   a.resizeNonZeros(next.back());
   std::ranges::copy(next, a.outerIndexPtr());
-  each([&](Index i, Index j, double value) {  // rows from above, so that columns are in order
-    const Index at = next[as_size(i)]++;
-    a.innerIndexPtr()[at] = j;
-    a.valuePtr()[at] = value;
-  });
+  for_each_entry(
+      k, symmetry,
+      [&](Index i, Index j, double value) {  // rows from above, so that columns are in order
+        const Index at = next[as_size(i)]++;
+        a.innerIndexPtr()[at] = j;
+        a.valuePtr()[at] = value;
+      });
 }
 
 CompressedRows compressed(const SparseMatrix& k, Symmetry symmetry) {

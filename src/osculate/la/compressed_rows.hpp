@@ -19,6 +19,20 @@ inline void release(CompressedRows& a) { CompressedRows().swap(a); }
 
 [[nodiscard]] constexpr std::size_t as_size(Index i) { return static_cast<std::size_t>(i); }
 
+/// Calls take(row, column, value) for the entries of both triangles that the rows here say: of a
+/// symmetric matrix the upper one counts for both. Zeros are left out, but for the diagonal.
+template <class Take>
+void for_each_entry(const SparseMatrix& k, Symmetry symmetry, const Take& take) {
+  const bool both = symmetry != Symmetry::unsymmetric;
+  for (Index i = 0; i < k.n; ++i)
+    for (Index e = k.row_start[as_size(i)]; e < k.row_start[as_size(i) + 1]; ++e) {
+      const Index j = k.column[as_size(e)];
+      if ((both && j < i) || (k.value[as_size(e)] == 0 && i != j)) continue;
+      take(i, j, k.value[as_size(e)]);
+      if (both && j > i) take(j, i, k.value[as_size(e)]);
+    }
+}
+
 /// The matrix with both triangles; entries that are zero are left out, but for the diagonal. The
 /// room of what `a` was is taken where it suffices.
 void compress(const SparseMatrix& k, Symmetry symmetry, CompressedRows& a);

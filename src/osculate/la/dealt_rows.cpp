@@ -47,20 +47,6 @@ struct Entry {
   double value = 0;
 };
 
-/// Calls take(row, column, value) for the entries of rows here, and of the rows of others that
-/// these say: of a symmetric matrix the upper triangle counts for both.
-template <class Take>
-void for_each_entry(const SparseMatrix& k, Symmetry symmetry, const Take& take) {
-  const bool both = symmetry != Symmetry::unsymmetric;
-  for (Index i = 0; i < k.n; ++i)
-    for (Index e = k.row_start[as_size(i)]; e < k.row_start[as_size(i) + 1]; ++e) {
-      const Index j = k.column[as_size(e)];
-      if ((both && j < i) || (k.value[as_size(e)] == 0 && i != j)) continue;
-      take(i, j, k.value[as_size(e)]);
-      if (both && j > i) take(j, i, k.value[as_size(e)]);
-    }
-}
-
 /// What others say of rows here: their numbers here, unknowns of the columns, values.
 std::vector<double> said_by_others(const SparseMatrix& k, Symmetry symmetry, const Dealt& dealt) {
   if (symmetry == Symmetry::unsymmetric) return {};
