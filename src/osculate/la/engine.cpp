@@ -21,12 +21,9 @@ struct Part {
   [[nodiscard]] Index unknown(Index here) const {
     return dealt.ranks ? unknowns[as_size(here)] : here;
   }
-  [[nodiscard]] Eigen::VectorXd here(const Eigen::VectorXd& all) const {
-    if (dealt.ranks) return all(unknowns);
-    return all;
-  }
   [[nodiscard]] Eigen::VectorXd own(const Eigen::VectorXd& all) const {
-    return here(all).head(halo.own());
+    if (dealt.ranks) return all(unknowns).head(halo.own());
+    return all;
   }
   [[nodiscard]] Eigen::VectorXd all(Eigen::VectorXd&& own) const {
     if (dealt.ranks) return halo.gathered(own)(dealt.number);
@@ -84,6 +81,7 @@ class Exact {
   bool factor(const CompressedRows& a, const Places& places, const Part& part, Symmetry symmetry,
               const MumpsOptions& options) {
     unknowns_.clear();
+    own_.clear();
     std::vector<Index> position(places.node.size(), -1);
     for (std::size_t u = 0; u < position.size(); ++u)
       if (places.exact[u] != 0 || places.node[u] < 0) {
@@ -91,6 +89,9 @@ class Exact {
         unknowns_.push_back(static_cast<Index>(u));
       }
     if (unknowns_.empty()) return true;
+    for (Index i = 0; i < a.rows(); ++i)
+      if (const Index j = position[as_size(part.unknown(i))]; j >= 0) own_.push_back({i, j});
+    ranks_ = part.dealt.ranks;
     std::vector<Eigen::Triplet<double, Index>> entries;
     for (Index i = 0; i < a.rows(); ++i)
       for (CompressedRows::InnerIterator entry(a, i); entry; ++entry)
@@ -103,9 +104,11 @@ class Exact {
     return direct_->factor(few_rows(part), 0, symmetry).status == SolveStatus::ok;
   }
   [[nodiscard]] bool any() const { return !unknowns_.empty(); }
-  /// K_cc^-1 r_c ; false: it cannot be.
-  bool solve(const Eigen::VectorXd& r, Eigen::VectorXd& few) {
-    few = r(unknowns_);
+  /// K_cc^-1 r_c , of all of them; false: it cannot be.
+  bool solve(const Eigen::VectorXd& own, Eigen::VectorXd& few) {
+    few = Eigen::VectorXd::Constant(static_cast<Index>(unknowns_.size()), core::Ranks::nothing);
+    for (const auto& [i, j] : own_) few[j] = own[i];
+    if (ranks_) ranks_->sum({few.data(), unknowns_.size()});
     return direct_->solve(few) == SolveStatus::ok;
   }
   /// What they are balanced by, of own rows.
@@ -114,7 +117,9 @@ class Exact {
     multiply(columns_, few, threads, balanced);
     own -= balanced;
   }
-  void add(const Eigen::VectorXd& few, Eigen::VectorXd& x) const { x(unknowns_) += few; }
+  void add(const Eigen::VectorXd& few, Eigen::VectorXd& own) const {
+    for (const auto& [i, j] : own_) own[i] += few[j];
+  }
 
  private:
   [[nodiscard]] SparseMatrix few_rows(const Part& part) const {
@@ -136,6 +141,8 @@ class Exact {
   }
 
   std::vector<Index> unknowns_;
+  std::vector<std::pair<Index, Index>> own_;  ///< own unknowns, and which of these each is
+  const core::Ranks* ranks_ = nullptr;
   CompressedRows columns_;
   std::unique_ptr<Mumps> direct_;
 };
@@ -163,14 +170,19 @@ class MultigridEngine final : public Engine {
   }
   bool build_again(const Places& places) override { return build(a_.as_rows(), symmetry_, places); }
   Nearby solve(const PreconditionedLimits& limits, Eigen::VectorXd& rhs) override {
-    return solve_preconditioned(
+    PreconditionedSolutions by(
         [this](const Eigen::VectorXd& x, Eigen::VectorXd& y) {
           if (!part_.dealt.ranks) return a_.multiply(x, threads_, y);
-          Eigen::VectorXd own;
-          a_.multiply(part_.here(x), threads_, own);
-          y = part_.all(std::move(own));
+          Eigen::VectorXd here = x;
+          here.conservativeResize(part_.halo.here());
+          part_.halo.update(here);
+          a_.multiply(here, threads_, y);
         },
-        [this](Eigen::VectorXd& r) { return precondition(r); }, limits, rhs);
+        [this](Eigen::VectorXd& r) { return precondition(r); }, part_.dealt.ranks);
+    Eigen::VectorXd own = part_.own(rhs);
+    const Nearby done = by.solve(limits, own);
+    if (done.solved) rhs = part_.all(std::move(own));
+    return done;
   }
   [[nodiscard]] Eigen::VectorXd diagonal() const override { return diagonal_; }
   [[nodiscard]] SparseMatrix matrix() const override {
@@ -199,13 +211,12 @@ class MultigridEngine final : public Engine {
     a_ = GroupedRows<double>(a, groups_of(places, part_));
     diagonal_ = part_.all(Eigen::VectorXd(a.diagonal()).cwiseAbs());
   }
-  bool precondition(Eigen::VectorXd& r) {
-    Eigen::VectorXd few, own = part_.dealt.ranks ? part_.own(r) : r;
-    if (exact_.any() && !exact_.solve(r, few)) return false;
+  bool precondition(Eigen::VectorXd& own) {
+    Eigen::VectorXd few;
+    if (exact_.any() && !exact_.solve(own, few)) return false;
     if (exact_.any()) exact_.balance(few, threads_, own);
     if (!bodies_->apply(own)) return false;
-    r = part_.all(std::move(own));
-    if (exact_.any()) exact_.add(few, r);
+    if (exact_.any()) exact_.add(few, own);
     return true;
   }
 

@@ -26,7 +26,7 @@ class Engine {
   virtual bool refresh(const SparseMatrix& k, Symmetry symmetry, const Places& places) = 0;
   /// Prepares anew for the matrix of the last `refresh`.
   virtual bool build_again(const Places& places) = 0;
-  /// Returns    as `solve_preconditioned`
+  /// Returns    as PreconditionedSolutions
   virtual Nearby solve(const PreconditionedLimits& limits,
                        Eigen::VectorXd& rhs_in_solution_out) = 0;
   /// Sizes of the diagonal entries of the matrix.

@@ -2,65 +2,33 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <limits>
 #include <vector>
-
-#include "osculate/la/preconditioned.hpp"
 
 namespace osculate::la {
 
-Eigen::VectorXd NearbySolutions::times(const Eigen::VectorXd& x) const {
-  return symmetry_ == Symmetry::unsymmetric ? multiply(k_, x) : multiply_symmetric(k_, x);
+namespace {
+
+Eigen::VectorXd times(const SparseMatrix& k, Symmetry symmetry, const Eigen::VectorXd& x) {
+  return symmetry == Symmetry::unsymmetric ? multiply(k, x) : multiply_symmetric(k, x);
 }
 
-/// False: nothing new.
-bool NearbySolutions::look_along(Eigen::VectorXd z) {
-  constexpr double nothing = 1e-12;
-  Eigen::VectorXd v = times(z);
-  const double whole = v.norm();
-  for (int twice = 0; twice < 2; ++twice)
-    for (std::size_t j = 0; j < along_.size(); ++j) {
-      const double part = image_[j].dot(v);
-      v -= part * image_[j];
-      z -= part * along_[j];
-    }
-  const double size = v.norm();
-  if (!(size > nothing * whole) || !std::isfinite(size)) return false;
-  image_.push_back(v / size);
-  along_.push_back(z / size);
-  return true;
-}
+}  // namespace
+
+NearbySolutions::NearbySolutions(const SparseMatrix& k, Symmetry symmetry, LinearSolver& factors)
+    : k_(k),
+      symmetry_(symmetry),
+      by_([&k, symmetry](const Eigen::VectorXd& x,
+                         Eigen::VectorXd& y) { y = times(k, symmetry, x); },
+          [&factors](Eigen::VectorXd& r) { return factors.solve_once(r) == SolveStatus::ok; }) {}
 
 Nearby NearbySolutions::solve(const NearbyLimits& limits, Eigen::VectorXd& rhs_in_solution_out) {
-  const Eigen::VectorXd& b = rhs_in_solution_out;
-  Nearby result;
-  if (k_.n == 0 || limits.iterations < 1 || b.size() != k_.n || !b.allFinite()) return result;
-  constexpr double rounding = 1 + 1e-6, hardly = 0.5;
-  const double wanted = limits.tolerance * b.stableNorm();
-  Eigen::VectorXd x = Eigen::VectorXd::Zero(k_.n), rest = b;
-  const auto take = [&](std::size_t j) {
-    const double part = image_[j].dot(rest);
-    x += part * along_[j];
-    rest -= part * image_[j];
-  };
-  for (std::size_t j = 0; j < along_.size(); ++j) take(j);
-  bool stagnates = false;
-  for (double left = rest.stableNorm();; left = rest.stableNorm()) {
-    if (left <= wanted) {  // as summed up: what does K say?
-      rest = b - times(x);
-      left = rest.stableNorm();
-      result.solved = left <= rounding * wanted && x.allFinite();
-      if (result.solved) break;
-    }
-    if (result.iterations == limits.iterations) return result;
-    Eigen::VectorXd z = stagnates ? image_.back() : rest;
-    ++result.iterations;
-    if (factors_.solve_once(z) != SolveStatus::ok || !look_along(std::move(z))) return result;
-    take(along_.size() - 1);
-    stagnates = rest.stableNorm() > hardly * left;
-  }
-  rhs_in_solution_out = std::move(x);
-  return result;
+  if (k_.n == 0 || limits.iterations < 1 || rhs_in_solution_out.size() != k_.n) return {};
+  PreconditionedLimits all;
+  all.tolerance = all.good_enough = limits.tolerance;
+  all.iterations = limits.iterations;
+  all.restart = std::numeric_limits<int>::max();
+  return by_.solve(all, rhs_in_solution_out);
 }
 
 Nearby NearbySolutions::resists_all(int iterations) {
@@ -88,7 +56,7 @@ Nearby NearbySolutions::resists_all(int iterations) {
     const Nearby more = solve({iterations - result.iterations, aim}, x);
     result.iterations += more.iterations;
     if (!more.solved) break;
-    const double left = (force - times(x)).cwiseQuotient(root).stableNorm();
+    const double left = (force - times(k_, symmetry_, x)).cwiseQuotient(root).stableNorm();
     if (!(x.cwiseProduct(root).stableNorm() <= far * size)) break;
     result.solved = left <= tolerance * size;
   }

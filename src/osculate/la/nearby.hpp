@@ -1,34 +1,22 @@
 #pragma once
-#include <vector>
-
 #include "osculate/la/linear_solver.hpp"
+#include "osculate/la/preconditioned.hpp"
 
 namespace osculate::la {
-
-/// How a solution by the factors of another matrix went.
-struct Nearby {
-  bool solved = false;
-  int iterations = 0;
-};
 
 struct NearbyLimits {
   int iterations = 0;
   double tolerance = 1e-8;  ///< of the residual beside the right-hand side
 };
 
-/// Solutions of K x = b with what `factors` has factored before, a matrix near to K. What was
-/// looked along for one right-hand side is not looked along again for the next one of the same K.
+/// Solutions of K x = b with what `factors` has factored before, a matrix near to K, by
+/// PreconditionedSolutions. Vectors are whole, also where several processes have the rows of K.
 ///
-/// Formula    z = M^-1 r , v = K z orthonormal to those before; x += (v . r) z , r -= (v . r) v :
-///            the smallest residual over all z, as by GMRES, by one solution with M each. Where the
-///            last step has left half of r, z = M^-1 v
-/// Source     P. Jiranek, M. Rozloznik, Numer. Algorithms 53 (2010) 93-112 (adaptive simpler GMRES)
 /// Requires   `factors` has factors of a matrix of this size, and lives as long as this
 /// Tested by  tests/unit/la/test_nearby.cpp
 class NearbySolutions {
  public:
-  NearbySolutions(const SparseMatrix& k, Symmetry symmetry, LinearSolver& factors)
-      : k_(k), symmetry_(symmetry), factors_(factors) {}
+  NearbySolutions(const SparseMatrix& k, Symmetry symmetry, LinearSolver& factors);
   /// Returns    `solved` where |b - K x| <= tolerance |b|; else nothing is changed
   Nearby solve(const NearbyLimits& limits, Eigen::VectorXd& rhs_in_solution_out);
   /// Whether K resists all motions: noise is no force that a singular matrix balances, though the
@@ -39,13 +27,9 @@ class NearbySolutions {
   Nearby resists_all(int iterations);
 
  private:
-  [[nodiscard]] Eigen::VectorXd times(const Eigen::VectorXd& x) const;
-  bool look_along(Eigen::VectorXd z);
-
   const SparseMatrix& k_;
   Symmetry symmetry_;
-  LinearSolver& factors_;
-  std::vector<Eigen::VectorXd> along_, image_;  ///< K along = image
+  PreconditionedSolutions by_;
 };
 
 /// One solution.

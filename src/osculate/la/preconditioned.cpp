@@ -3,73 +3,118 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <unsupported/Eigen/IterativeSolvers>
-#include <utility>
 
 namespace osculate::la {
 namespace {
 
-/// A M^-1, whose residual is the true one.
-struct Preconditioned {
-  const Multiply& a;
-  const Precondition& precondition;
-  Eigen::Index n;
-
-  [[nodiscard]] Eigen::Index rows() const { return n; }
-  /// Not a number where the preconditioner does not work.
-  [[nodiscard]] Eigen::VectorXd solution(const Eigen::VectorXd& y) const {
-    Eigen::VectorXd x = y;
-    if (!precondition(x)) x = Eigen::VectorXd::Constant(n, std::nan(""));
-    return x;
-  }
-  [[nodiscard]] Eigen::VectorXd operator*(const Eigen::VectorXd& y) const {
-    Eigen::VectorXd product;
-    a(solution(y), product);
-    return product;
-  }
-};
-
-/// What Eigen asks of a preconditioner on the left.
-struct NothingOnTheLeft {
-  [[nodiscard]] static const Eigen::VectorXd& solve(const Eigen::VectorXd& b) { return b; }
-};
+constexpr double rounding = 1 + 1e-6;  ///< between residuals as summed up and as K says
 
 }  // namespace
 
-Nearby solve_preconditioned(const Multiply& a, const Precondition& precondition,
-                            const PreconditionedLimits& limits,
-                            Eigen::VectorXd& rhs_in_solution_out) {
-  const Eigen::VectorXd& b = rhs_in_solution_out;
-  const Eigen::Index n = b.size();
-  Nearby result;
-  if (n == 0 || limits.iterations < 1 || !b.allFinite()) return result;
-  constexpr double rounding = 1 + 1e-6;
-  const Preconditioned by{a, precondition, n};
-  const double size = b.stableNorm();
-  Eigen::VectorXd x = Eigen::VectorXd::Zero(n), rest = b, product;
-  double left = size;
-  while (size > 0 && result.iterations < limits.iterations) {
-    const Eigen::Index most =
-        std::min<Eigen::Index>({limits.restart, limits.iterations - result.iterations, n});
-    Eigen::Index iterations = most;
-    double residual = limits.tolerance * size / left;
-    Eigen::VectorXd y = Eigen::VectorXd::Zero(n);
-    Eigen::internal::gmres(by, rest, y, NothingOnTheLeft{}, iterations, most, residual);
-    result.iterations += static_cast<int>(std::max<Eigen::Index>(iterations, 1));
-    const Eigen::VectorXd further = by.solution(y);
-    if (!further.allFinite()) return result;
-    a(further, product);
-    const double then = Eigen::VectorXd(rest - product).stableNorm();
-    const bool gains = then <= limits.enough * left;
-    if (then < left) {
-      x += further;
-      rest -= product;
-      left = then;
+/// One solution on its way.
+struct PreconditionedSolutions::Running {
+  const Eigen::VectorXd& b;
+  Eigen::VectorXd x, rest;
+  double left = 0;   ///< |rest|
+  double begun = 0;  ///< of the residual, when the directions that are kept began
+  double seen = 0;   ///< likewise, when the matrix was asked last
+  bool stagnates = false;
+};
+
+double PreconditionedSolutions::norm(const Eigen::VectorXd& v) const {
+  const double own = v.stableNorm();
+  return ranks_ ? std::sqrt(ranks_->sum(own * own)) : own;
+}
+
+void PreconditionedSolutions::find_true_residual(Running& to) const {
+  Eigen::VectorXd product;
+  a_(to.x, product);
+  to.rest = to.b - product;
+  to.left = norm(to.rest);
+}
+
+void PreconditionedSolutions::take(std::size_t along, Running& to) const {
+  double part = image_[along].dot(to.rest);
+  if (ranks_) part = ranks_->sum(part);
+  to.x += part * along_[along];
+  to.rest -= part * image_[along];
+}
+
+/// False: nothing new.
+bool PreconditionedSolutions::look_along(Eigen::VectorXd z) {
+  constexpr double nothing = 1e-12;
+  Eigen::VectorXd v;
+  a_(z, v);
+  const double whole = norm(v);
+  std::vector<double> parts(image_.size()), both(image_.size(), 0.0);
+  for (int twice = 0; twice < 2 && !parts.empty(); ++twice) {
+    for (std::size_t j = 0; j < parts.size(); ++j) parts[j] = image_[j].dot(v);
+    if (ranks_) ranks_->sum(parts);
+    for (std::size_t j = 0; j < parts.size(); ++j) {
+      v -= parts[j] * image_[j];
+      both[j] += parts[j];
     }
-    if (left <= rounding * limits.tolerance * size || !gains) break;
   }
-  result.solved = left <= rounding * std::max(limits.tolerance, limits.good_enough) * size;
-  if (result.solved) rhs_in_solution_out = std::move(x);
+  for (std::size_t j = 0; j < both.size(); ++j) z -= both[j] * along_[j];
+  const double size = norm(v);
+  if (!(size > nothing * whole) || !std::isfinite(size)) return false;
+  image_.push_back(v / size);
+  along_.push_back(z / size);
+  return true;
+}
+
+/// False: there is no direction to take.
+bool PreconditionedSolutions::step(Running& to, int& iterations) {
+  constexpr double hardly = 0.5;
+  Eigen::VectorXd z = to.stagnates ? image_.back() : to.rest;
+  ++iterations;
+  if (!precondition_(z) || !look_along(std::move(z))) return false;
+  take(along_.size() - 1, to);
+  const double then = norm(to.rest);
+  to.stagnates = then > hardly * to.left;
+  to.left = then;
+  return true;
+}
+
+bool PreconditionedSolutions::goes_on(const PreconditionedLimits& limits, Running& to) {
+  if (along_.size() < static_cast<std::size_t>(limits.restart)) return true;
+  find_true_residual(to);
+  if (!(to.left <= limits.enough * to.begun)) return false;
+  along_.clear();
+  image_.clear();
+  to.begun = to.left;
+  to.stagnates = false;
+  return true;
+}
+
+Nearby PreconditionedSolutions::solve(const PreconditionedLimits& limits,
+                                      Eigen::VectorXd& rhs_in_solution_out) {
+  const Eigen::VectorXd& b = rhs_in_solution_out;
+  Nearby result;
+  const double size = norm(b), wanted = limits.tolerance * size;
+  if (!std::isfinite(size)) return result;
+  Running to{b,    Eigen::VectorXd::Zero(b.size()),        b, size,
+             size, std::numeric_limits<double>::infinity()};
+  for (std::size_t j = 0; j < along_.size(); ++j) take(j, to);
+  to.left = norm(to.rest);
+  while (true) {
+    if (to.left <= wanted) {  // as summed up: what does the matrix say?
+      find_true_residual(to);
+      result.solved = to.left <= rounding * wanted;
+      if (result.solved || !(to.left <= limits.enough * to.seen)) break;
+      to.seen = to.left;
+    }
+    if (result.iterations == limits.iterations || !goes_on(limits, to) ||
+        !step(to, result.iterations))
+      break;
+  }
+  if (!result.solved && limits.good_enough > limits.tolerance) {
+    find_true_residual(to);
+    result.solved = to.left <= rounding * limits.good_enough * size;
+  }
+  const bool finite = to.x.allFinite();
+  result.solved = result.solved && (ranks_ ? ranks_->all(finite) : finite);
+  if (result.solved) rhs_in_solution_out = std::move(to.x);
   return result;
 }
 

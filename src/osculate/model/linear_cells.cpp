@@ -43,7 +43,7 @@ void LinearCells<Dim>::add(const BasicBulkSection<Dim>& section, cell::CellType 
   const std::size_t dofs = Dim * static_cast<std::size_t>(cell::info(type).nodes);
   const bool linear = section.section.kinematics == solid::Kinematics::small &&
                       material::linear(section.section.law);
-  length_.push_back(linear ? static_cast<std::uint32_t>(dofs * dofs) : 0);
+  length_.push_back(linear ? static_cast<std::uint32_t>(dofs * (dofs + 1) / 2) : 0);
 }
 
 template <int Dim>
@@ -55,7 +55,9 @@ bool LinearCells<Dim>::make(std::size_t number, const BasicModel<Dim>& model,
   evaluate_cell(model, section, cell, u, memory, true, out);
   if (!out.ok) return false;
   const auto& tangent = out.result.tangent;
-  std::copy_n(tangent.data(), tangent.size(), &values_[begin_[number]]);
+  double* to = &values_[begin_[number]];
+  for (Eigen::Index column = 0; column < tangent.cols(); ++column)
+    to = std::copy_n(&tangent(column, column), tangent.rows() - column, to);
   made_[number] = is_compact(model, cell) ? compact : slender;
   return true;
 }
@@ -74,7 +76,13 @@ void LinearCells<Dim>::evaluate(std::size_t number, const BasicModel<Dim>& model
     multiply(number, model, section, cell, u, out);
   else
     evaluate_cell(model, section, cell, u, memory, false, out);
-  if (with_tangent) out.result.tangent = matrix(number, out.dof_count);
+  if (!with_tangent) return;
+  auto& tangent = out.result.tangent;
+  tangent.resize(out.dof_count, out.dof_count);
+  const double* from = &values_[begin_[number]];
+  for (Eigen::Index column = 0; column < tangent.cols(); ++column)
+    for (Eigen::Index row = column; row < tangent.rows(); ++row)
+      tangent(row, column) = tangent(column, row) = *from++;
 }
 
 template <int Dim>
@@ -101,7 +109,16 @@ void LinearCells<Dim>::multiply(std::size_t number, const BasicModel<Dim>& model
     const double common = slides_freely(section, axis) ? value(axis) : 0;
     for (int d = axis; d < out.dof_count; d += Dim) along[d] = value(d) - common;
   }
-  out.result.force.noalias() = matrix(number, out.dof_count) * along;
+  auto& force = out.result.force;
+  force.setZero(out.dof_count);
+  const double* k = &values_[begin_[number]];
+  for (Eigen::Index column = 0; column < out.dof_count; ++column) {
+    const Eigen::Index below = out.dof_count - column - 1;
+    const Eigen::Map<const Eigen::VectorXd> of_column(k + 1, below);
+    force[column] += *k * along[column] + of_column.dot(along.tail(below));
+    force.tail(below) += along[column] * of_column;
+    k += below + 1;
+  }
 }
 
 template class LinearCells<2>;

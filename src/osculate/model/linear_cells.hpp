@@ -8,8 +8,8 @@
 namespace osculate::model {
 
 /// Stiffness matrices of cells whose forces are linear in the displacements (small strains of a
-/// linear law): made once, when the cell is first evaluated. What does not fit into `most_bytes` is
-/// evaluated anew each time, as are all other cells.
+/// linear law): made once, when the cell is first evaluated, and kept as one triangle. What does
+/// not fit into `most_bytes` is evaluated anew each time, as are all other cells.
 ///
 /// Forces of implicit analyses are those of the strains all the same in thin cells, of whose
 /// bending the stored matrix has no digits left. Explicit ones take the product, but of
@@ -26,14 +26,17 @@ class LinearCells {
   /// The next cell, in the order in which they are numbered.
   void add(const BasicBulkSection<Dim>& section, cell::CellType type);
   /// Takes the memory; cells that are evaluated before are not kept. `needs_none(number)`: cells
-  /// that nobody will ask for. What is kept already stays only where that does not change.
+  /// that nobody will ask for, or only seldom; they count among what has to fit all the same, so
+  /// that what is kept of the others does not depend on them. What is kept already stays only where
+  /// that does not change.
   template <class None>
   void reserve(const None& needs_none) {
     std::vector<std::size_t> begin(length_.size(), nowhere);
-    std::size_t size = 0;
+    std::size_t size = 0, of_all = 0;
     for (std::size_t n = 0; n < length_.size(); ++n) {
-      if (length_[n] == 0 || needs_none(n) || (size + length_[n]) * sizeof(double) > most_bytes)
-        continue;
+      if (length_[n] == 0 || (of_all + length_[n]) * sizeof(double) > most_bytes) continue;
+      of_all += length_[n];
+      if (needs_none(n)) continue;
       begin[n] = size;
       size += length_[n];
     }
@@ -67,14 +70,11 @@ class LinearCells {
                           const BasicBulkSection<Dim>& section, const mesh::CellRef& cell,
                           const Eigen::VectorXd& u, const material::Memory& memory,
                           BasicBulkBlock<Dim>& out);
-  [[nodiscard]] Eigen::Map<const Eigen::MatrixXd> matrix(std::size_t number, int dofs) const {
-    return {&values_[begin_[number]], dofs, dofs};
-  }
   void multiply(std::size_t number, const BasicModel<Dim>& model,
                 const BasicBulkSection<Dim>& section, const mesh::CellRef& cell,
                 const Eigen::VectorXd& u, BasicBulkBlock<Dim>& out) const;
-  std::vector<std::uint32_t> length_;  ///< of a cell's matrix; 0: it has none
-  std::vector<std::size_t> begin_;     ///< of a cell's matrix in `values_`
+  std::vector<std::uint32_t> length_;  ///< of a cell's triangle; 0: it has none
+  std::vector<std::size_t> begin_;     ///< of a cell's triangle in `values_`, column by column
   std::vector<Made> made_;
   std::vector<double> values_;
 };

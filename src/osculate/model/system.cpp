@@ -74,12 +74,12 @@ void BasicSystem<Dim>::begin_step(const Step& step, const State& committed) {
     if (unknown >= 0) flags[static_cast<std::size_t>(unknown)] = true;
   }
   impl_->assembler.set_prescribed(std::move(flags));
-  // Explicit time integration says itself which cells are to keep a matrix.
-  if (!step.dynamics || !step.dynamics->explicit_steps) impl_->bulk.linear.reserve();
   if (!impl_->model.pair_changes.empty())  // buffers of ties are no good for points that part
     for (pairing::PairEvaluation<Dim>& contact : impl_->last.contact) contact = {};
   impl_->begin_drivers();
   impl_->share(iterates(step));
+  // Explicit time integration says itself which cells are to keep a matrix.
+  if (!step.dynamics || !step.dynamics->explicit_steps) impl_->bulk.keep_linear();
 }
 
 template <int Dim>

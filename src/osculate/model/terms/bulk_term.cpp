@@ -43,6 +43,14 @@ void BulkTerm<Dim>::reserve(const BasicDofSpace<Dim>& dofs, la::MatrixBuilder& b
 }
 
 template <int Dim>
+void BulkTerm<Dim>::keep_linear() {
+  std::vector<char> here(jobs.size(), ranks ? 0 : 1);
+  if (ranks)
+    for (const std::size_t job : shares.cells) here[job] = 1;
+  linear.reserve([&](std::size_t job) { return here[job] == 0; });
+}
+
+template <int Dim>
 bool BulkTerm<Dim>::add(const State& committed, const State& trial, double duration,
                         const CellInertia<Dim>* inertia, Assembly<Dim>& to,
                         solve::Evaluation& out) {

@@ -46,6 +46,8 @@ struct BulkTerm {
   BulkTerm(const BasicModel<Dim>& m, const BasicDofSpace<Dim>& dofs, int thread_count);
   /// The places of all cells in the matrix.
   void reserve(const BasicDofSpace<Dim>& dofs, la::MatrixBuilder& builder) const;
+  /// Matrices of linear cells will be kept, of those that are evaluated here.
+  void keep_linear();
   /// A cell at the nodal displacements `u` after what its points remember; nothing (no dofs) of one
   /// that is not there. Different cells may be evaluated at once. `next` may be empty; `duration`
   /// of the increment.
