@@ -91,7 +91,9 @@ void be_alone(const std::string& command) {
 int join(const std::function<int(const model::Together&)>& part) {
   const int processes = processes_started();
   if (processes <= 1) return part({});
-  const la::RanksLibrary library = begin(processes);
+  la::RanksLibrary library = begin(processes);
+  double& fewest = library.solvers.mumps.fewest_entries;
+  if (const char* const text = std::getenv("OSCULATE_SHARE_FROM")) fewest = std::atof(text);
   const core::Ranks& ranks = *library.ranks;
   try {
     const int code = part({&ranks, library.solvers});

@@ -13,8 +13,8 @@
 #include <thread>
 #include <vector>
 
-#include "gathered_solver.hpp"
 #include "osculate/deck/build.hpp"
+#include "osculate/la/dealt_mumps.hpp"
 #include "osculate/model/quantities.hpp"
 #include "ranks.hpp"
 
@@ -79,7 +79,10 @@ template <int Dim>
 Outcome analysed(const deck::BasicBuilt<Dim>& built, const core::Ranks* ranks) {
   model::AnalysisOptions options = built.options;
   options.ranks = ranks;
-  options.linear_solver = [] { return std::make_unique<GatheredSolver>(); };
+  options.linear_solver = [] {
+    constexpr double any = std::numeric_limits<double>::infinity();
+    return std::make_unique<la::DealtMumps>(la::MumpsOptions{.shared = {.fewest_entries = any}});
+  };
   Outcome out;
   model::BasicAnalysisObserver<Dim> observer;
   observer.converged = [&](model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,

@@ -12,14 +12,14 @@ PROGRAM, MPIRUN, PATIENT, SOURCE = sys.argv[1:5]
 TIMES = ("seconds", "contact_seconds", "peak_memory_mb")
 
 
-def environment():
+def environment(**more):
     """Whatever the user's settings are: more processes than cores, as root, too, on this machine alone."""
     kept = {k: v for k, v in os.environ.items() if not k.startswith(("OMPI_", "PMIX_", "PMI_", "SLURM_", "OSCULATE_"))}
     return kept | {
         "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
         "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_MCA_hwloc_base_binding_policy": "none",
         "OMPI_MCA_mpi_yield_when_idle": "1", "OMPI_MCA_btl": "self,vader",
-        "OMPI_MCA_btl_vader_single_copy_mechanism": "none", "OMPI_MCA_plm": "isolated", "LC_ALL": "C"}
+        "OMPI_MCA_btl_vader_single_copy_mechanism": "none", "OMPI_MCA_plm": "isolated", "LC_ALL": "C"} | more
 
 
 def together(processes, *arguments, quiet=True):
@@ -56,9 +56,10 @@ class RanksCase(unittest.TestCase):
         with open(self.path(name), "w") as file:
             file.write(text)
 
-    def run_program(self, processes, *arguments, code=0):
+    def run_program(self, processes, *arguments, code=0, share_from="0"):
+        """`share_from`: matrices of fewer entries are factored by the first process; 0: all are shared."""
         done = subprocess.run(together(processes, *arguments), cwd=self.folder.name, capture_output=True, text=True,
-                              env=environment(), timeout=self.limit, stdin=subprocess.DEVNULL)
+                              env=environment(OSCULATE_SHARE_FROM=share_from), timeout=self.limit, stdin=subprocess.DEVNULL)
         self.assertEqual(done.returncode, code, done.stdout + done.stderr)
         return done
 

@@ -88,7 +88,7 @@ class Killed:
         self.moment, self.folder = moment, folder
         self.increments, self.said, self.slow, self.when = 0, "", None, None
         command = together(moment.processes, "run", "model.yaml", "-o", folder, quiet=False)
-        with subprocess.Popen(command, cwd=os.path.dirname(folder), text=True, env=environment(), stdin=subprocess.DEVNULL,
+        with subprocess.Popen(command, cwd=os.path.dirname(folder), text=True, env=environment(OSCULATE_SHARE_FROM="0"), stdin=subprocess.DEVNULL,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT) as self.mpirun:
             listening = threading.Thread(target=self.listen)
             listening.start()

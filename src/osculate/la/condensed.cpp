@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "osculate/la/accuracy.hpp"
+#include "osculate/la/dealt_mumps.hpp"
 #include "osculate/la/dense_factors.hpp"
 #include "osculate/la/eliminated.hpp"
 
@@ -63,7 +64,7 @@ struct Condensed::Impl {
     return symmetric ? multiply_symmetric(matrix, x) : multiply(matrix, x);
   }
 
-  Mumps whole;
+  DealtMumps whole;
   SchurFactors inside;
   Eliminated few{inside};
   std::unique_ptr<DenseFactors> dense = std::make_unique<DenseFactors>();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "osculate/la/dealt_mumps.hpp"
 #include "osculate/la/dealt_rows.hpp"
 #include "osculate/la/grouped_rows.hpp"
 #include "osculate/la/multigrid.hpp"
@@ -100,7 +101,7 @@ class Exact {
           entries.emplace_back(i, j, entry.value());
     columns_.resize(static_cast<Index>(a.rows()), static_cast<Index>(unknowns_.size()));
     columns_.setFromTriplets(entries.begin(), entries.end());
-    direct_ = std::make_unique<Mumps>(options);
+    direct_ = std::make_unique<DealtMumps>(options);
     return direct_->factor(few_rows(part), 0, symmetry).status == SolveStatus::ok;
   }
   [[nodiscard]] bool any() const { return !unknowns_.empty(); }
@@ -144,7 +145,7 @@ class Exact {
   std::vector<std::pair<Index, Index>> own_;  ///< own unknowns, and which of these each is
   const core::Ranks* ranks_ = nullptr;
   CompressedRows columns_;
-  std::unique_ptr<Mumps> direct_;
+  std::unique_ptr<DealtMumps> direct_;
 };
 
 class MultigridEngine final : public Engine {

@@ -9,6 +9,8 @@ namespace osculate::la {
 struct SharedMumps {
   void (*call)(void* structure) = nullptr;  ///< dmumps_c
   int communicator = 0;                     ///< as Fortran has it
+  /// Matrices of fewer entries are factored by the first process alone (see DealtMumps).
+  double fewest_entries = 5e5;
 };
 
 struct MumpsOptions {
