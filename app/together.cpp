@@ -95,6 +95,7 @@ int join(const std::function<int(const model::Together&)>& part) {
   double& fewest = library.solvers.mumps.fewest_entries;
   if (const char* const text = std::getenv("OSCULATE_SHARE_FROM")) fewest = std::atof(text);
   const core::Ranks& ranks = *library.ranks;
+  ranks.spread({&fewest, 1}, 0);  // other machines need not have it in their environment
   try {
     const int code = part({&ranks, library.solvers});
     ranks.finish();

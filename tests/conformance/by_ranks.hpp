@@ -1,6 +1,6 @@
 #pragma once
 // Whole analyses by several processes, as threads: to the last bit what one does, whoever owns
-// which node. Only factors round differently in parts; here each has those of the whole matrix.
+// which node. Only factors round differently in parts; here the first one has those of all.
 #include <gtest/gtest.h>
 
 #include <algorithm>

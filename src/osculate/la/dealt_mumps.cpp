@@ -50,24 +50,18 @@ SparseMatrix put_together(const SparseMatrix& k) {
   return whole;
 }
 
-/// What the first process does, where it did not come to an end for want of memory.
-struct WantOfMemory {
-  bool is = false;
-  std::string text;
-};
+/// Lets the first process work. All are told where it did not come to an end for want of memory.
 template <class Work>
-WantOfMemory done_by_the_first(const core::Ranks& ranks, const Work& work) {
-  WantOfMemory want;
+void let_the_first(const core::Ranks& ranks, const Work& work) {
+  std::string wanting;
   try {
     if (ranks.rank() == 0) work();
-  } catch (const std::bad_alloc& error) {
-    want = {true, error.what()};
+  } catch (const NotEnoughMemory& error) {
+    wanting = error.what();
+  } catch (const std::bad_alloc&) {
+    wanting = "not enough memory for the linear solver";
   }
-  want.is = ranks.any(want.is);
-  return want;
-}
-void tell(const core::Ranks& ranks, const WantOfMemory& want) {
-  if (want.is) throw NotEnoughMemory(ranks.spread(want.text, 0));
+  if (ranks.any(!wanting.empty())) throw NotEnoughMemory(ranks.spread(wanting, 0));
 }
 
 void tell(const core::Ranks& ranks, FactorReport& report) {
@@ -100,7 +94,7 @@ void tell(const core::Ranks& ranks, FactorReport& report) {
 template <class Right, class By>
 SolveStatus told(const core::Ranks& ranks, Right& rhs, const By& by) {
   SolveStatus status = SolveStatus::failed;
-  tell(ranks, done_by_the_first(ranks, [&] { status = by(); }));
+  let_the_first(ranks, [&] { status = by(); });
   auto number = static_cast<int>(status);
   ranks.spread({&number, 1}, 0);
   status = static_cast<SolveStatus>(number);
@@ -115,12 +109,12 @@ FactorReport DealtMumps::factor(const SparseMatrix& k, std::uint64_t pattern_ver
                                 Symmetry symmetry) {
   const Timed timed(seconds_);
   const bool few = k.ranks && entry_count(k) < fewest_;
+  if (few && !told_) mumps_.forget();  // what it had with all of them ends with all of them
   told_ = few ? k.ranks : nullptr;
   if (!few) return mumps_.factor(k, pattern_version, symmetry);
   FactorReport report;
   const SparseMatrix whole = put_together(k);
-  tell(*told_, done_by_the_first(
-                   *told_, [&] { report = mumps_.factor(whole, pattern_version, symmetry); }));
+  let_the_first(*told_, [&] { report = mumps_.factor(whole, pattern_version, symmetry); });
   tell(*told_, report);
   return report;
 }

@@ -26,6 +26,10 @@ double PreconditionedSolutions::norm(const Eigen::VectorXd& v) const {
   return ranks_ ? std::sqrt(ranks_->sum(own * own)) : own;
 }
 
+bool PreconditionedSolutions::all_finite(const Eigen::VectorXd& v) const {
+  return ranks_ ? ranks_->all(v.allFinite()) : v.allFinite();
+}
+
 void PreconditionedSolutions::find_true_residual(Running& to) const {
   Eigen::VectorXd product;
   a_(to.x, product);
@@ -92,7 +96,7 @@ Nearby PreconditionedSolutions::solve(const PreconditionedLimits& limits,
   const Eigen::VectorXd& b = rhs_in_solution_out;
   Nearby result;
   const double size = norm(b), wanted = limits.tolerance * size;
-  if (!std::isfinite(size)) return result;
+  if (!all_finite(b) || !std::isfinite(size)) return result;
   Running to{b,    Eigen::VectorXd::Zero(b.size()),        b, size,
              size, std::numeric_limits<double>::infinity()};
   for (std::size_t j = 0; j < along_.size(); ++j) take(j, to);
@@ -104,16 +108,15 @@ Nearby PreconditionedSolutions::solve(const PreconditionedLimits& limits,
       if (result.solved || !(to.left <= limits.enough * to.seen)) break;
       to.seen = to.left;
     }
-    if (result.iterations == limits.iterations || !goes_on(limits, to) ||
+    if (result.iterations >= limits.iterations || !goes_on(limits, to) ||
         !step(to, result.iterations))
       break;
   }
-  if (!result.solved && limits.good_enough > limits.tolerance) {
+  if (!result.solved) {
     find_true_residual(to);
-    result.solved = to.left <= rounding * limits.good_enough * size;
+    result.solved = to.left <= rounding * std::max(limits.tolerance, limits.good_enough) * size;
   }
-  const bool finite = to.x.allFinite();
-  result.solved = result.solved && (ranks_ ? ranks_->all(finite) : finite);
+  result.solved = result.solved && all_finite(to.x);
   if (result.solved) rhs_in_solution_out = std::move(to.x);
   return result;
 }

@@ -40,7 +40,7 @@ struct Nearby {
 ///            GMRES); Y. Saad, M. H. Schultz, SIAM J. Sci. Stat. Comput. 7 (1986) 856-869;
 ///            L. Giraud, J. Langou, M. Rozloznik, Comput. Math. Appl. 50 (2005) 1069-1075 (all
 ///            parts at once, and once more)
-/// Tested by  tests/unit/la/test_nearby.cpp, test_iterative.cpp, test_rows_of_ranks.cpp
+/// Tested by  tests/unit/la/test_preconditioned.cpp, test_nearby.cpp, test_iterative.cpp
 class PreconditionedSolutions {
  public:
   PreconditionedSolutions(Multiply a, Precondition precondition, const core::Ranks* ranks = nullptr)
@@ -52,6 +52,7 @@ class PreconditionedSolutions {
  private:
   struct Running;
   [[nodiscard]] double norm(const Eigen::VectorXd& v) const;
+  [[nodiscard]] bool all_finite(const Eigen::VectorXd& v) const;
   void find_true_residual(Running& to) const;
   void take(std::size_t along, Running& to) const;
   bool look_along(Eigen::VectorXd z);

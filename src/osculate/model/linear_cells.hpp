@@ -26,17 +26,18 @@ class LinearCells {
   /// The next cell, in the order in which they are numbered.
   void add(const BasicBulkSection<Dim>& section, cell::CellType type);
   /// Takes the memory; cells that are evaluated before are not kept. `needs_none(number)`: cells
-  /// that nobody will ask for, or only seldom; they count among what has to fit all the same, so
-  /// that what is kept of the others does not depend on them. What is kept already stays only where
-  /// that does not change.
-  template <class None>
-  void reserve(const None& needs_none) {
+  /// that nobody will ask for. `elsewhere(number)`: those of other processes, which count among
+  /// what has to fit, so that what is kept does not depend on how many processes there are. What is
+  /// kept already stays only where that does not change.
+  template <class None, class Elsewhere>
+  void reserve(const None& needs_none, const Elsewhere& elsewhere) {
     std::vector<std::size_t> begin(length_.size(), nowhere);
     std::size_t size = 0, of_all = 0;
     for (std::size_t n = 0; n < length_.size(); ++n) {
-      if (length_[n] == 0 || (of_all + length_[n]) * sizeof(double) > most_bytes) continue;
+      if (length_[n] == 0 || needs_none(n) || (of_all + length_[n]) * sizeof(double) > most_bytes)
+        continue;
       of_all += length_[n];
-      if (needs_none(n)) continue;
+      if (elsewhere(n)) continue;
       begin[n] = size;
       size += length_[n];
     }
@@ -46,7 +47,8 @@ class LinearCells {
     values_ = std::vector<double>(size);
   }
   void reserve() {
-    reserve([](std::size_t) { return false; });
+    const auto none = [](std::size_t) { return false; };
+    reserve(none, none);
   }
   /// Whether the matrix of a cell is stored, or will be.
   [[nodiscard]] bool kept(std::size_t number) const {

@@ -37,7 +37,8 @@ BasicSystem<Dim>::Impl::Explicit::Explicit(Impl& s)
   make_followers();
   look_at_contact();
   make_parts();
-  system.bulk.linear.reserve([&](std::size_t cell) { return batches.takes(cell); });
+  system.bulk.linear.reserve([&](std::size_t cell) { return batches.takes(cell); },
+                             [](std::size_t) { return false; });
   total.setZero(n);
   inverse.setZero(n);
   for (Dof d = 0; d < n; ++d) {

@@ -47,7 +47,8 @@ void BulkTerm<Dim>::keep_linear() {
   std::vector<char> here(jobs.size(), ranks ? 0 : 1);
   if (ranks)
     for (const std::size_t job : shares.cells) here[job] = 1;
-  linear.reserve([&](std::size_t job) { return here[job] == 0; });
+  linear.reserve([](std::size_t) { return false; },
+                 [&](std::size_t job) { return here[job] == 0; });
 }
 
 template <int Dim>
