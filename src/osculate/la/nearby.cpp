@@ -13,6 +13,27 @@ Eigen::VectorXd times(const SparseMatrix& k, Symmetry symmetry, const Eigen::Vec
   return symmetry == Symmetry::unsymmetric ? multiply(k, x) : multiply_symmetric(k, x);
 }
 
+/// What noise may leave of itself, and how long its answer may be.
+constexpr double left_of_noise = 1e-5, far = 1e8;
+
+/// Roots of the largest entries of the rows; 1 for an empty row, which resists nothing.
+Eigen::VectorXd roots_of_rows(const SparseMatrix& k) {
+  Eigen::VectorXd root = Eigen::VectorXd::Ones(k.n);
+  for (Index i = 0; i < k.n; ++i) {
+    double largest = 0;
+    for (Index e = k.row_start[static_cast<std::size_t>(i)];
+         e < k.row_start[static_cast<std::size_t>(i) + 1]; ++e)
+      largest = std::max(largest, std::abs(k.value[static_cast<std::size_t>(e)]));
+    if (largest > 0) root[i] = std::sqrt(largest);
+    if (k.ranks && largest == 0) root[i] = 0;
+  }
+  if (k.ranks) {
+    k.ranks->largest({root.data(), static_cast<std::size_t>(k.n)});
+    for (double& r : root) r = r > 0 ? r : 1;
+  }
+  return root;
+}
+
 }  // namespace
 
 NearbySolutions::NearbySolutions(const SparseMatrix& k, Symmetry symmetry, LinearSolver& factors)
@@ -20,7 +41,8 @@ NearbySolutions::NearbySolutions(const SparseMatrix& k, Symmetry symmetry, Linea
       symmetry_(symmetry),
       by_([&k, symmetry](const Eigen::VectorXd& x,
                          Eigen::VectorXd& y) { y = times(k, symmetry, x); },
-          [&factors](Eigen::VectorXd& r) { return factors.solve_once(r) == SolveStatus::ok; }) {}
+          [&factors](Eigen::VectorXd& r) { return factors.solve_once(r) == SolveStatus::ok; }),
+      factors_(factors) {}
 
 Nearby NearbySolutions::solve(const NearbyLimits& limits, Eigen::VectorXd& rhs_in_solution_out) {
   if (k_.n == 0 || limits.iterations < 1 || rhs_in_solution_out.size() != k_.n) return {};
@@ -32,34 +54,51 @@ Nearby NearbySolutions::solve(const NearbyLimits& limits, Eigen::VectorXd& rhs_i
 }
 
 Nearby NearbySolutions::resists_all(int iterations) {
-  constexpr double tolerance = 1e-5, tightest = 1e-12, far = 1e8;
-  Eigen::VectorXd root = Eigen::VectorXd::Ones(k_.n);  // an empty row resists nothing
-  for (Index i = 0; i < k_.n; ++i) {
-    double largest = 0;
-    for (Index e = k_.row_start[static_cast<std::size_t>(i)];
-         e < k_.row_start[static_cast<std::size_t>(i) + 1]; ++e)
-      largest = std::max(largest, std::abs(k_.value[static_cast<std::size_t>(e)]));
-    if (largest > 0) root[i] = std::sqrt(largest);
-    if (k_.ranks && largest == 0) root[i] = 0;
-  }
-  if (k_.ranks) {
-    k_.ranks->largest({root.data(), static_cast<std::size_t>(k_.n)});
-    for (double& r : root) r = r > 0 ? r : 1;
-  }
+  constexpr double tightest = 1e-12;
+  const Eigen::VectorXd root = roots_of_rows(k_);
   const Eigen::VectorXd given = noise(k_.n), force = given.cwiseProduct(root);
   const double size = given.stableNorm();
   Nearby result;
   // Soft bodies beside stiff ones have a small share of the residual: what counts is each by
   // itself.
-  for (double aim = tolerance; aim >= tightest && !result.solved; aim *= 1e-2) {
+  for (double aim = left_of_noise; aim >= tightest && !result.solved; aim *= 1e-2) {
     Eigen::VectorXd x = force;
     const Nearby more = solve({iterations - result.iterations, aim}, x);
     result.iterations += more.iterations;
     if (!more.solved) break;
     const double left = (force - times(k_, symmetry_, x)).cwiseQuotient(root).stableNorm();
     if (!(x.cwiseProduct(root).stableNorm() <= far * size)) break;
-    result.solved = left <= tolerance * size;
+    result.solved = left <= left_of_noise * size;
   }
+  return result;
+}
+
+Nearby NearbySolutions::is_positive(int iterations) {
+  const Eigen::VectorXd root = roots_of_rows(k_), given = noise(k_.n);
+  const Eigen::VectorXd force = given.cwiseProduct(root);
+  const double size = given.stableNorm(), wanted = left_of_noise * size;
+  const auto out_of_balance = [&](const Eigen::VectorXd& r) {
+    return r.cwiseQuotient(root).stableNorm();
+  };
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(k_.n), r = force, p = x;
+  double before = 1;
+  Nearby result;
+  while (out_of_balance(r) > wanted) {
+    Eigen::VectorXd z = r;
+    if (result.iterations == iterations) return result;
+    ++result.iterations;
+    if (factors_.solve_once(z) != SolveStatus::ok) return result;
+    const double now = r.dot(z);
+    p = z + (now / before) * p;
+    const Eigen::VectorXd image = times(k_, symmetry_, p);
+    const double work = p.dot(image);
+    if (!(now > 0 && work > 0) || !std::isfinite(now / work)) return result;
+    x += (now / work) * p;
+    r -= (now / work) * image;
+    before = now;
+  }
+  const double left = out_of_balance(force - times(k_, symmetry_, x));
+  result.solved = left <= 2 * wanted && x.cwiseProduct(root).stableNorm() <= far * size;
   return result;
 }
 

@@ -25,11 +25,22 @@ class NearbySolutions {
   /// Formula    |S^-1 (S noise - K x)| <= 1e-5 |noise| , |S x| <= 1e8 |noise| , S the roots of the
   ///            rows' largest entries, 1 for an empty row
   Nearby resists_all(int iterations);
+  /// Whether a K of a symmetric kind has no negative eigenvalue, and resists all motions: conjugate
+  /// gradients balance noise, and each of their directions takes work.
+  ///
+  /// Formula    p^T K p > 0 , |S^-1 (S noise - K x)| <= 1e-5 |noise| , |S x| <= 1e8 |noise|. What
+  ///            is left is q(M^-1 K) S noise, q(0) = 1, and where all p take work all zeros of q
+  ///            are positive, so that it grows along an eigenvector of a negative eigenvalue
+  /// Requires   the factors have no negative pivots
+  /// Source     C. C. Paige, B. N. Parlett, H. A. van der Vorst, Numer. Linear Algebra Appl. 2
+  ///            (1995) 115-133 (zeros are Ritz values)
+  Nearby is_positive(int iterations);
 
  private:
   const SparseMatrix& k_;
   Symmetry symmetry_;
   PreconditionedSolutions by_;
+  LinearSolver& factors_;
 };
 
 /// One solution.

@@ -41,6 +41,7 @@ class FormerFactors {
   void keep(const la::FactorReport& report, const la::SparseMatrix& k, const StateCounts& counts) {
     const bool sound = report.status == la::SolveStatus::ok && report.condition == 0;
     affordable_ = sound ? la::affordable_iterations(report, k) : 0;
+    positive_ = report.negative_pivots == 0;
     states_ = last_ = counts.signature;
     fresh_ = true;
     first_ = false;
@@ -65,14 +66,13 @@ class FormerFactors {
     if (changed && (failures_ >= tries || wanted_ <= 0)) return false;
     if (!fresh_ && settled && !gains(result)) return false;
     // Never at rest; or pivots have to be counted.
-    if (changed &&
-        (settled ? system.symmetry() != la::Symmetry::unsymmetric : wanted(result) >= share))
+    if (changed && (settled ? !can_be_tried(system, result) : wanted(result) >= share))
       return false;
     const bool moving = changed && !settled;
     const double tolerance = moving ? most_left : std::clamp(wanted(result), least, most_left);
     la::NearbySolutions by(system.matrix(), system.symmetry(), solver);
     du = -residual;
-    fresh_ = !(moving || resists_all(by)) || !by.solve({affordable_, tolerance}, du).solved;
+    fresh_ = !(moving || resists_all(system, by)) || !by.solve({affordable_, tolerance}, du).solved;
     if (changed && fresh_) ++failures_;
     return !fresh_;
   }
@@ -99,7 +99,7 @@ class FormerFactors {
     last_ = result.evaluation.counts.signature;
     const la::SparseMatrix& k = system.matrix();
     la::NearbySolutions by(k, system.symmetry(), solver);
-    if (system.symmetry() == la::Symmetry::unsymmetric && resists_all(by)) return true;
+    if (can_be_tried(system, result) && noise_is_resisted(system, by)) return true;
     const la::FactorReport report = solver.factor(k, system.pattern_version(), system.symmetry());
     forget();
     if (report.status != la::SolveStatus::ok || report.condition > 0) return false;
@@ -110,10 +110,24 @@ class FormerFactors {
   }
 
  private:
+  /// Whether noise can say that a tangent holds everything.
+  template <System S>
+  [[nodiscard]] bool can_be_tried(const S& system,
+                                  const NewtonResult<typename S::Trial>& result) const {
+    return system.symmetry() == la::Symmetry::unsymmetric ||
+           (positive_ && !result.evaluation.saddle);
+  }
+  template <System S>
+  bool noise_is_resisted(const S& system, la::NearbySolutions& by) const {
+    return (system.symmetry() == la::Symmetry::unsymmetric ? by.resists_all(affordable_)
+                                                           : by.is_positive(affordable_))
+        .solved;
+  }
   /// Whether the tangent holds everything, where its states are not those of the factors.
-  bool resists_all(la::NearbySolutions& by) {
+  template <System S>
+  bool resists_all(const S& system, la::NearbySolutions& by) {
     if (last_ == states_ || last_ == tried_) return true;
-    if (!by.resists_all(affordable_).solved) return false;
+    if (!noise_is_resisted(system, by)) return false;
     tried_ = last_;
     return true;
   }
@@ -135,6 +149,7 @@ class FormerFactors {
   int affordable_ = 0;                   ///< iterations; none without factors
   std::uint64_t states_ = 0, last_ = 0;  ///< of the factors, and of the last correction
   std::uint64_t tried_ = 0;              ///< of a tangent that resists all motions
+  bool positive_ = true;                 ///< no negative pivots in the factors
   bool fresh_ = true, first_ = true;
   bool symmetric_part_serves_ = true;
   bool moved_ = false;  ///< points have other states than at the last correction

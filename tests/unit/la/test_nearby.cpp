@@ -108,6 +108,52 @@ TEST(Nearby, NoiseTellsWhatNothingHolds) {
   EXPECT_TRUE(is_held(false, 1e-3).solved);
 }
 
+/// The held block with springs of this stiffness at some nodes of its lowest row, by the factors of
+/// the block without them.
+Nearby is_positive(Index count, double stiff, Symmetry kind) {
+  MatrixBuilder before = block(0, 0), after = block(count, stiff);
+  Mumps former;
+  EXPECT_EQ(former.factor(before.finish(), 1, kind).status, SolveStatus::ok);
+  return NearbySolutions(after.finish(), kind, former).is_positive(60);
+}
+
+/// The stiffness of such springs below which the block is unstable.
+double critical(Index count) {
+  double stable = 0, unstable = -1e3;
+  while (stable - unstable > 1e-6) {
+    const double middle = 0.5 * (stable + unstable);
+    MatrixBuilder after = block(count, middle);
+    Mumps own;
+    const FactorReport report = own.factor(after.finish(), 1, Symmetry::indefinite);
+    (report.negative_pivots > 0 ? unstable : stable) = middle;
+  }
+  return stable;
+}
+
+TEST(Nearby, NoiseTellsOfNegativeEigenvalues) {
+  for (const Symmetry kind : {Symmetry::positive_definite, Symmetry::indefinite})
+    for (const Index count : {1, 3, 6}) {
+      SCOPED_TRACE(count);
+      const double least = critical(count);
+      ASSERT_LT(least, -0.01);
+      for (const double share : {-5.0, 0.0, 0.5, 0.99, 0.9999})
+        EXPECT_TRUE(is_positive(count, share * least, kind).solved) << share;
+      for (const double share : {1.0001, 1.01, 1.5, 20.0})
+        EXPECT_FALSE(is_positive(count, share * least, kind).solved) << share;
+    }
+}
+
+TEST(Nearby, NoiseTellsOfNegativeEigenvaluesAndOfWhatIsFreeAlike) {
+  for (const bool held : {false, true}) {
+    MatrixBuilder before = test::grid(width, height, true), after = test::grid(width, height, held);
+    Mumps former;
+    ASSERT_EQ(former.factor(before.finish(), 1, Symmetry::positive_definite).status,
+              SolveStatus::ok);
+    NearbySolutions by(after.finish(), Symmetry::positive_definite, former);
+    EXPECT_EQ(by.is_positive(60).solved, held);
+  }
+}
+
 /// A held block beside a small one of another stiffness, which is held in the factors alone or in
 /// both.
 bool tells_of_soft(double stiffness, bool held) {

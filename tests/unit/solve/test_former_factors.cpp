@@ -147,15 +147,63 @@ struct RestingSystem : ToySystem {
   [[nodiscard]] static bool at_rest() { return true; }
 };
 
-// The pivots at the end are of a tangent of the end, not of the first one.
-TEST(FormerFactors, EndNoIncrementWherePivotsTellOfStability) {
+// Noise says of the tangent at the end that it is stable, as the first one was.
+TEST(FormerFactors, EndAnIncrementAtRestWhereNoiseSaysThatItIsStable) {
   RestingSystem system{springs()};
   la::Mumps mumps;
   const auto result = newton(system, ToySystem::State{Eigen::VectorXd::Zero(size)}, 1.0, {}, mumps);
   ASSERT_EQ(result.outcome, Outcome::converged) << result.reason;
   ASSERT_GT(result.iterations.size(), 2U);
-  EXPECT_EQ(factorisations(result), 2);
-  EXPECT_TRUE(result.iterations.back().factored);
+  EXPECT_EQ(factorisations(result), 1);
+  EXPECT_EQ(result.negative_pivots, 0);
+}
+
+/// The last spring loses its stiffness as the first one is pulled, and is in balance where it is.
+NewtonResult<ToySystem::Trial> column(double softening) {
+  RestingSystem system{springs()};
+  const auto before = system.force;
+  const auto stiffness = system.stiffness;
+  constexpr Index last = size - 1;
+  const auto decoupled = [](Eigen::MatrixXd k) {
+    k.row(last).setZero();
+    k.col(last).setZero();
+    k(last, last) = 1;
+    return k;
+  };
+  system.force = [=](const Eigen::VectorXd& x, double t) -> Eigen::VectorXd {
+    Eigen::VectorXd without = x;
+    without[last] = 0;
+    Eigen::VectorXd f = before(without, t);
+    f[last] = (1 - softening * x[0]) * x[last];
+    f[0] -= 0.5 * softening * x[last] * x[last];
+    return f;
+  };
+  system.stiffness = [=](const Eigen::VectorXd& x) -> Eigen::MatrixXd {
+    Eigen::MatrixXd k = decoupled(stiffness(x));
+    k(last, last) = 1 - softening * x[0];
+    k(0, last) = k(last, 0) = -softening * x[last];
+    return k;
+  };
+  la::Mumps mumps;
+  return newton(system, ToySystem::State{Eigen::VectorXd::Zero(size)}, 1.0, {}, mumps);
+}
+
+// The pivots at the end are of a tangent of the end, not of the first one.
+TEST(FormerFactors, EndNoIncrementWithoutPivotsWhereItIsUnstable) {
+  const auto stable = column(0);
+  ASSERT_EQ(stable.outcome, Outcome::converged) << stable.reason;
+  EXPECT_EQ(factorisations(stable), 1);
+  const double critical = 1 / stable.trial.x[0];
+  for (const double share : {0.9, 0.999, 1.001, 1.1, 3.0}) {
+    SCOPED_TRACE(share);
+    const auto result = column(share * critical);
+    ASSERT_EQ(result.outcome, Outcome::converged) << result.reason;
+    EXPECT_EQ(result.negative_pivots, share > 1 ? 1 : 0);
+    if (share > 1) {
+      EXPECT_EQ(factorisations(result), 2);
+      EXPECT_TRUE(result.iterations.back().factored);
+    }
+  }
 }
 
 TEST(FormerFactors, OfOtherStatesDoNotServeWhereTheEnergyAloneCounts) {
