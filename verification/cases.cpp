@@ -73,6 +73,8 @@ std::vector<Case> computed_cases() {  // long: the one list
       {"projection_domains",
        "Domains of corners, edges, arcs and planar points are those of KSCPP, and the reach", false,
        projection_domains},
+      {"scaled_bar", "Mass for longer time steps: a bar with a point mass, and no weight", false,
+       scaled_bar},
       {"self_contact",
        "A clip that closes on itself is the half of it on a plane; contact: all finds the pairs",
        false, self_contact},

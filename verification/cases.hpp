@@ -32,6 +32,7 @@ namespace osculate::verification {
 [[nodiscard]] CaseResult cyclic_modes(const CaseContext& context);
 [[nodiscard]] CaseResult large_rotation(const CaseContext& context);
 [[nodiscard]] CaseResult projection_domains(const CaseContext& context);
+[[nodiscard]] CaseResult scaled_bar(const CaseContext& context);
 [[nodiscard]] CaseResult self_contact(const CaseContext& context);
 [[nodiscard]] CaseResult sliding_block(const CaseContext& context);
 [[nodiscard]] CaseResult ironing(const CaseContext& context);

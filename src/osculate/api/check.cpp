@@ -9,6 +9,7 @@
 #include "osculate/deck/parse.hpp"
 #include "osculate/mesh/boundary.hpp"
 #include "osculate/model/bulk.hpp"
+#include "osculate/result/added_mass.hpp"
 #include "osculate/result/initial_gaps.hpp"
 #include "osculate/result/penetration.hpp"
 #include "osculate/result/result_folder.hpp"
@@ -93,11 +94,37 @@ std::string contact_text(const model::BasicModel<Dim>& m, nlohmann::json& pairs,
   return text;
 }
 
+/// Explicit steps: how long their time steps are, what is added to masses, and what longer steps
+/// would cost.
+template <int Dim>
+std::string time_steps_text(model::BasicSystem<Dim>& system, nlohmann::json& steps,
+                            std::vector<std::string>& warnings) {
+  const model::BasicModel<Dim>& m = system.model();
+  std::string text;
+  if (!m.pair_changes.empty() || !m.body_changes.empty()) return text;
+  for (std::size_t s = 0; s < m.steps.size(); ++s) {
+    const model::Step& step = m.steps[s];
+    if (!step.dynamics || !step.dynamics->explicit_steps) continue;
+    const result::TimeStepOutlook outlook = result::time_step_outlook(system, step);
+    text +=
+        fmt::format("{:<13} {:<16} {}\n", "Time step", step.name, result::time_step_text(outlook));
+    steps[s]["time_step"] = result::time_step_json(outlook);
+    const model::MassScaling& wanted = step.dynamics->mass_scaling;
+    if (!(wanted.stable_step > 0) && wanted.factor == 1.0) continue;
+    const result::AddedMass added{s, step.name, wanted, system.scaled_masses()};
+    for (const std::string& line : result::added_mass_text(added)) text += line + "\n";
+    for (std::string& warning : result::added_mass_warnings(added))
+      warnings.push_back(std::move(warning));
+    steps[s]["mass_scaling"] = result::added_mass_json(added);
+  }
+  return text;
+}
+
 template <int Dim>
 CheckReport check_built(const std::string& path, const deck::Description& description,
                         const deck::BasicBuilt<Dim>& built) {
   const model::BasicModel<Dim>& m = built.model;
-  const model::BasicSystem<Dim> system(m, 1);
+  model::BasicSystem<Dim> system(m, 1);
   const Index unknowns = system.dofs().unknowns();
   CheckReport report;
   nlohmann::json facts = nlohmann::json::array(), pairs = nlohmann::json::array();
@@ -120,6 +147,7 @@ CheckReport check_built(const std::string& path, const deck::Description& descri
   if (!built.linear_note.empty())
     report.text += fmt::format("{:<13} {}\n", "Linear", built.linear_note);
   std::vector<std::string> warnings = built.warnings;
+  report.text += time_steps_text(system, steps, warnings);
   report.text += contact_text(m, pairs, warnings);
   for (const std::string& warning : warnings) report.text += "warning: " + warning + "\n";
   report.text += "the model file is valid\n";

@@ -17,6 +17,7 @@
 #include "osculate/mesh/boundary.hpp"
 #include "osculate/model/diagnosis.hpp"
 #include "osculate/pairing/tangent_parts.hpp"
+#include "osculate/result/added_mass.hpp"
 #include "osculate/result/answer_files.hpp"
 #include "osculate/result/checkpoint.hpp"
 #include "osculate/result/field_files.hpp"
@@ -74,6 +75,7 @@ struct Recorder {
   std::vector<double> curvature_shares;  ///< one per converged increment
   std::vector<nlohmann::json> notes;     ///< one per converged increment
   result::PointStates states = result::point_states(built.model);
+  std::vector<result::AddedMass> masses{};  ///< of explicit steps that have begun here
   result::Watch<Dim> watch{built.model};
   std::vector<std::string> warned;  ///< of contact in the last increment
   std::optional<result::AnswerFiles<Dim>> answers{};
@@ -154,6 +156,19 @@ struct Recorder {
     } catch (const io::WriteError& error) {
       if (write_error.empty()) write_error = error.what();
     }
+  }
+
+  /// A step with central differences, of which nothing was written before or some increments were.
+  void begins(const model::BasicSystem<Dim>& system, const model::Progress& p) {
+    const model::MassScaling& wanted =
+        built.model.steps[static_cast<std::size_t>(p.step)].dynamics->mass_scaling;
+    if (!(wanted.stable_step > 0) && wanted.factor == 1.0) return;
+    masses.push_back(
+        {static_cast<std::size_t>(p.step), step_name(p), wanted, system.scaled_masses()});
+    if (p.increment > 0) return;
+    say_all(result::added_mass_text(masses.back()));
+    for (const std::string& warning : result::added_mass_warnings(masses.back()))
+      say("warning: " + warning);
   }
 
   /// An iteration that has just been done.

@@ -47,6 +47,9 @@ RunOutcome finish(Recorder<Dim>& recorder, const model::BasicAnalysisResult<Dim>
   for (const deck::Setting& parameter : recorder.description.parameters)
     summary["parameters"][parameter.name] = parameter.value;
   summary["contact"] = recorder.penetration_reached();
+  for (const result::AddedMass& added : recorder.masses)
+    if (added.step < result.steps.size())
+      summary["steps"][added.step]["mass_scaling"] = result::added_mass_json(added);
   const std::string& until = recorder.options.until;
   const std::vector<model::Step>& steps = recorder.built.model.steps;
   const bool all = done && (until.empty() || steps.empty() || until == steps.back().name);
@@ -95,6 +98,7 @@ model::BasicAnalysisObserver<Dim> observe(Recorder<Dim>& recorder) {
     recorder.say(fmt::format("{}: no convergence from {:.5g} to {:.5g} of the step: {}; halving",
                              recorder.step_name(p), p.fraction, to, reason));
   };
+  observer.begins = [&recorder](const auto& system, const auto& p) { recorder.begins(system, p); };
   observer.iterated = [&recorder](const auto& aim, int number, const auto& iteration) {
     recorder.iterated(aim, number, iteration);
   };

@@ -151,6 +151,7 @@ void build_dynamics(const BuildContext<Dim>& c, const Step& step, std::vector<do
       out.dynamics->lumped = true;
       out.dynamics->scheme.impact = solve::Impact::average;
       out.dynamics->explicit_steps = solve::CentralDifferences{d.safety, d.step};
+      out.dynamics->mass_scaling = {d.mass_scaling.stable_step.value_or(0), d.mass_scaling.factor};
     }
   }
   if (gravity.empty() || (all_zero(gravity) && all_zero(before))) return;

@@ -37,13 +37,51 @@ void put_damping(const InpModel& m, SourceNode& dynamics) {
   }
 }
 
+/// Nothing where the masses are what they are.
+void put_scheme(const InpMassScaling& scaling, SourceNode& dynamics, int line) {
+  if (!(scaling.stable_step > 0) && scaling.factor == 1.0) {
+    put(dynamics, "scheme", inp_text("central_differences", line));
+    return;
+  }
+  const int here = line_of(scaling.card->at);
+  SourceNode& scheme = put(dynamics, "scheme", inp_map(line));
+  SourceNode& central = put(scheme, "central_differences", inp_map(line));
+  SourceNode& masses = put(central, "mass_scaling", inp_map(here));
+  if (scaling.stable_step > 0) put(masses, "stable_step", inp_number(scaling.stable_step, here));
+  if (scaling.factor != 1.0) put(masses, "factor", inp_number(scaling.factor, here));
+}
+
 }  // namespace
 
-SourceNode inp_dynamics(const InpModel& m, const Card& card) {
+InpMassScaling read_mass_scaling(const InpModel& m, const Card& card,
+                                 const InpProcedure& procedure) {
+  if (!procedure.is("DYNAMIC") || !find_parameter(*procedure.card, "EXPLICIT"))
+    io::inp::fail(m.deck, card, "belongs behind *DYNAMIC, EXPLICIT");
+  if (procedure.scaling.card && procedure.scaling.card > procedure.card)
+    io::inp::fail(m.deck, card,
+                  fmt::format("the step has one already, in line {}: it is of all cells",
+                              procedure.scaling.card->at.line));
+  if (const io::inp::Parameter* const type = find_parameter(card, "TYPE");
+      type && io::inp::capitals(type->value) != "BELOW MIN")
+    io::inp::fail(m.deck, card, "expected TYPE=BELOW MIN, which is usual");
+  if (!find_parameter(card, "DT") && !find_parameter(card, "FACTOR"))
+    io::inp::fail(m.deck, card, "expected DT, FACTOR or both");
+  InpMassScaling scaling{&card, number_of(m, card, "DT", 0), number_of(m, card, "FACTOR", 1)};
+  if (!(scaling.stable_step > 0) && find_parameter(card, "DT"))
+    io::inp::fail(m.deck, card,
+                  fmt::format("expected DT above 0, found {:g}", scaling.stable_step));
+  if (!(scaling.factor >= 1))
+    io::inp::fail(m.deck, card,
+                  fmt::format("expected FACTOR of 1 or more, found {:g}", scaling.factor));
+  return scaling;
+}
+
+SourceNode inp_dynamics(const InpModel& m, const InpProcedure& procedure) {
+  const Card& card = *procedure.card;
   const int line = line_of(card.at);
   SourceNode dynamics = inp_map(line);
   if (find_parameter(card, "EXPLICIT")) {
-    put(dynamics, "scheme", inp_text("central_differences", line));
+    put_scheme(procedure.scaling, dynamics, line);
     put_damping(m, dynamics);
     return dynamics;
   }

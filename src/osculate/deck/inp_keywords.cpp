@@ -8,7 +8,7 @@ namespace {
 
 using enum KeywordUse;
 
-constexpr std::array<InpKeyword, 150> keywords{{
+constexpr std::array<InpKeyword, 152> keywords{{
     {"HEADING", "", "a title", silent, ""},
     {"INCLUDE", "INPUT", "", mesh, "the lines of the file"},
     {"NODE", "NSET, SYSTEM, INPUT", "number, x, y, z", mesh, "nodes, and a set of them"},
@@ -146,6 +146,9 @@ constexpr std::array<InpKeyword, 150> keywords{{
      "increment, time", translated, "`steps.duration`, `steps.increments`"},
     {"DYNAMIC", "ALPHA, EXPLICIT, DIRECT; SOLVER, HAFTOL, HALFINC SCALE FACTOR, NOHAF, INITIAL",
      "increment, time", translated, "`steps.dynamics`"},
+    {"FIXED MASS SCALING", "DT, FACTOR, TYPE", "", translated,
+     "`steps.dynamics.scheme: {central_differences: {mass_scaling}}`, of all cells"},
+    {"VARIABLE MASS SCALING", "", "", none, "masses change at the beginning of a step only"},
     {"FREQUENCY",
      "STORAGE; SOLVER, EIGENSOLVER, NORMALIZATION, GLOBAL, CYCMPC, NUMBER INTERVAL, ACOUSTIC "
      "COUPLING, DAMPING PROJECTION, SIM",

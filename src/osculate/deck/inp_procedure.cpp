@@ -165,7 +165,7 @@ void put_time(InpModel& m, const InpProcedure& procedure, SourceNode& step) {
   put(step, "increments", inp_number(procedure.increments, line));
   put(step, "duration", inp_number(procedure.period, line));
   if (is_at_once(m, procedure)) put(step, "at_once", inp_text("true", line)).quoted = false;
-  if (procedure.is("DYNAMIC")) put(step, "dynamics", inp_dynamics(m, *procedure.card));
+  if (procedure.is("DYNAMIC")) put(step, "dynamics", inp_dynamics(m, procedure));
 }
 
 SourceNode& put_range(const InpProcedure& procedure, SourceNode& step) {

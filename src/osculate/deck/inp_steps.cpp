@@ -22,6 +22,7 @@ struct History {
   InpVibrations found{};         ///< by the last step with *FREQUENCY, if they are still good
   const Card* step = nullptr;    ///< null: between two of them
   InpProcedure now{}, last{};    ///< procedure of the step, and the last one of the deck
+  InpMassScaling scaling{};      ///< that holds
   std::set<std::string> idle{};  ///< sets of nodes without elements that have been told of
   double total_time = 0;         ///< of the steps that have ended
   bool moved = false;            ///< one of them has moved the bodies
@@ -61,6 +62,7 @@ void begin_procedure(History& h, const Card& card) {
     fail("only *MODAL DYNAMIC follows *MODAL DYNAMIC here");
   if (swings || superposes) check_vibrations(h.m, card, h.found);
   h.now = h.last = inp_procedure(h.m, *h.step, card, h.moved);
+  h.now.scaling = h.scaling;
 }
 
 /// What its cards change of contact, bodies and equations.
@@ -220,6 +222,7 @@ void take_card(History& h, const Card& card) {
   if (key == "AMPLITUDE") read_amplitude(h.m, card, h.tables);
   if (is_procedure(card)) begin_procedure(h, card);
   if (key == "SELECTCYCLICSYMMETRYMODES") read_diameters(h.m, card, h.now);
+  if (key == "FIXEDMASSSCALING") h.now.scaling = h.scaling = read_mass_scaling(h.m, card, h.now);
   if (key == "INITIALCONDITIONS") check_initial_conditions(h.m, card);
   const InpReading reading{h.m,     h.tables, h.acting,          h.idle,
                            h.parts, h.now,    h.step != nullptr, h.last.is("STEADYSTATEDYNAMICS")};

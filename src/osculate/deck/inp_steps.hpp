@@ -46,6 +46,12 @@ void read_amplitude(const InpModel& m, const io::inp::Card& card, InpTables& tab
 
 // ---- what a step does: inp_procedure.cpp ------------------------------------------------------
 
+/// `*FIXED MASS SCALING`: holds in the steps after it, too.
+struct InpMassScaling {
+  const io::inp::Card* card = nullptr;  ///< null: there is none
+  double stable_step = 0, factor = 1;   ///< 0: none is asked for
+};
+
 /// The card of a procedure such as `*STATIC`.
 struct InpProcedure {
   const io::inp::Card* card = nullptr;  ///< null: the step has none yet
@@ -58,6 +64,7 @@ struct InpProcedure {
     double from = 0, to = 0, bias = 3;
     int points = 20;
   } range{};                 ///< of frequencies of `*STEADY STATE DYNAMICS`
+  InpMassScaling scaling{};  ///< of `*DYNAMIC, EXPLICIT`
   bool about_start = false;  ///< its state is that before the first step
 
   [[nodiscard]] bool is(std::string_view keyword) const { return card && card->keyword == keyword; }
@@ -74,7 +81,10 @@ void put_search(const InpProcedure& procedure, SourceNode& step);
 void put_time(InpModel& m, const InpProcedure& procedure, SourceNode& step);
 SourceNode& put_range(const InpProcedure& procedure, SourceNode& step);
 /// Time integration of a `*DYNAMIC`. In inp_dynamics.cpp.
-[[nodiscard]] SourceNode inp_dynamics(const InpModel& m, const io::inp::Card& card);
+[[nodiscard]] SourceNode inp_dynamics(const InpModel& m, const InpProcedure& procedure);
+/// `*FIXED MASS SCALING` in a step with this procedure.
+[[nodiscard]] InpMassScaling read_mass_scaling(const InpModel& m, const io::inp::Card& card,
+                                               const InpProcedure& procedure);
 /// `modal` of a step that ends with the last of these cards, with so many vibrations: the last
 /// damping of the deck holds, as in CalculiX. In inp_modal.cpp.
 [[nodiscard]] SourceNode inp_modal(const InpModel& m, std::span<const io::inp::Card> until,

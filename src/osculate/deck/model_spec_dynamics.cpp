@@ -16,6 +16,30 @@ BoundKey<D> numbered(const char* name, SchemeWord scheme, const Keys& numbers, s
           }};
 }
 
+BoundKey<D> mass_scaling_key() {
+  using M = D::MassScaling;
+  const BoundKeys<M> keys(
+      {may(&M::stable_step, "stable_step",
+           number("Stable step that every cell reaches: the mass of those that would not is "
+                  "multiplied by the square of what they lack.")
+               .in("time")
+               .above(0)
+               .such_as("1e-6")),
+       may(&M::factor, "factor",
+           number("Factor of the mass of all cells, before that; for slow processes, whose motion "
+                  "has little energy.")
+               .at_least(1)
+               .otherwise("1")
+               .such_as("100"))});
+  return {optional("mass_scaling",
+                   keys.spec("Mass that cells get so that time steps can be longer. It has no "
+                             "weight.")
+                       .with(Group::Rule::at_least_one, {"stable_step", "factor"})
+                       .otherwise_as("masses as they are")
+                       .such_as("{stable_step: 1e-6}")),
+          [keys](D& d, const Value& v) { d.mass_scaling = keys.read(v); }};
+}
+
 BoundKey<D> scheme_key() {
   const Keys hht({need(&D::parameter, "alpha",
                        number("Dissipation, from 0 (none) to 1/3 (most).")
@@ -35,7 +59,8 @@ BoundKey<D> scheme_key() {
                .above(0)
                .at_most(2)
                .otherwise("0.9")),
-       may(&D::step, "step", number("Longest time step.").in("time").above(0).such_as("1e-7"))});
+       may(&D::step, "step", number("Longest time step.").in("time").above(0).such_as("1e-7")),
+       mass_scaling_key()});
   const Keys schemes(
       {numbered("hht", SchemeWord::hht, hht, "Hilber, Hughes and Taylor's."),
        numbered("generalized_alpha", SchemeWord::generalized_alpha, alpha, "Chung and Hulbert's."),

@@ -82,6 +82,12 @@ struct DynamicsDescription {
     std::optional<Number> smallest;
   };
   std::optional<TimeSteps> time_steps;
+  /// Of central_differences.
+  struct MassScaling {
+    std::optional<double> stable_step;
+    double factor = 1;
+  };
+  MassScaling mass_scaling;
 };
 
 /// Linear motion of the vibrations that the step before has found.

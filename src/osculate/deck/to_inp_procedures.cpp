@@ -54,7 +54,28 @@ std::string modal_damping(const ModalDescription& damping, int vibrations) {
   return out;
 }
 
-std::string dynamic_of(const Step& step, double duration) {
+bool steps_explicitly(const Step& step) {
+  return step.dynamics && step.dynamics->scheme == SchemeWord::central_differences;
+}
+bool scales_masses(const Step& step) {
+  const DynamicsDescription::MassScaling& scaling = step.dynamics->mass_scaling;
+  return scaling.stable_step || scaling.factor != 1.0;
+}
+
+/// It holds in the explicit steps behind it, too, where these say nothing.
+std::string mass_scaling_of(const Description& d, const Step& step) {
+  bool before = false;
+  for (const Step* past = d.steps.data(); past != &step; ++past)
+    if (steps_explicitly(*past)) before = scales_masses(*past);
+  if (!scales_masses(step)) return before ? "*FIXED MASS SCALING, FACTOR=1\n" : "";
+  const DynamicsDescription::MassScaling& scaling = step.dynamics->mass_scaling;
+  std::string text = "*FIXED MASS SCALING";
+  if (scaling.factor != 1.0) text += fmt::format(", FACTOR={}", exact(scaling.factor));
+  if (scaling.stable_step) text += fmt::format(", DT={}", exact(*scaling.stable_step));
+  return text + "\n";
+}
+
+std::string dynamic_of(const Description& d, const Step& step, double duration) {
   const DynamicsDescription& dynamics = *step.dynamics;
   const auto refuse = [&](const char* what) {
     throw core::InputError(dynamics.mark, fmt::format("{} are not written", what));
@@ -63,9 +84,10 @@ std::string dynamic_of(const Step& step, double duration) {
       dynamics.impact_times != ImpactTimesWord::automatic)
     refuse("choices of impacts and masses");
   const double step_size = duration / step.increments.value;
-  if (dynamics.scheme == SchemeWord::central_differences && dynamics.step == 0 &&
+  if (steps_explicitly(step) && dynamics.step == 0 &&
       dynamics.safety == solve::CentralDifferences{}.safety)
-    return fmt::format("*DYNAMIC, EXPLICIT, DIRECT\n{}, {}\n", exact(step_size), exact(duration));
+    return fmt::format("*DYNAMIC, EXPLICIT, DIRECT\n{}, {}\n", exact(step_size), exact(duration)) +
+           mass_scaling_of(d, step);
   if (dynamics.scheme != SchemeWord::newmark && dynamics.scheme != SchemeWord::hht)
     refuse("schemes other than newmark, hht and central differences");
   const double alpha = dynamics.scheme == SchemeWord::hht ? dynamics.parameter : 0;
@@ -198,7 +220,7 @@ ProcedureCards procedure_of(const Description& d, std::size_t number, bool finit
             false, false};
   }
   const std::string head = title + fmt::format("*STEP{}, INC=1000000\n", geometry);
-  if (step.dynamics) return {head + dynamic_of(step, duration), true, false};
+  if (step.dynamics) return {head + dynamic_of(d, step, duration), true, false};
   // in *STATIC nothing creeps or relaxes, and in *VISCO loads act at once where nothing is said
   const bool relaxes = std::ranges::any_of(d.materials, [](const Material& m) {
     const std::string_view key = material::key_of(m.law.value);

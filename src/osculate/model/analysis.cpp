@@ -59,6 +59,7 @@ struct Analysis {
   /// Central differences: the increments of the step are where results are told.
   void run_explicit_step(const Step& step,
                          const solve::IncrementObserver<BasicState<Dim>>& on_increment) {
+    if (observer.begins) observer.begins(system, progress);
     for (; position.nominal < step.increments; ++position.nominal) {
       const double end = static_cast<double>(position.nominal + 1) / step.increments;
       if (position.at >= end) continue;  // resumed

@@ -93,6 +93,8 @@ struct BasicAnalysisObserver {
   std::function<void(const BasicSystem<Dim>&, const BasicState<Dim>&, const Progress&,
                      const solve::StepPosition&)>
       resumable;
+  /// A step with central differences begins, or goes on from a resume point.
+  std::function<void(const BasicSystem<Dim>&, const Progress&)> begins{};
   /// Vibrations have been found about a state.
   std::function<void(const BasicSystem<Dim>&, const BasicState<Dim>&, const Progress&,
                      const Vibrations&)>

@@ -90,6 +90,13 @@ struct TimeStepLengths {
   double smallest = 0;  ///< time step that is not shortened any more
 };
 
+/// Mass that cells get in an explicit step so that its time steps can be longer: no weight, and
+/// nothing in other steps.
+struct MassScaling {
+  double stable_step = 0;  ///< which cells by themselves reach at least; 0: mass for none
+  double factor = 1;       ///< of the mass of all cells, before
+};
+
 /// A step in time with inertia.
 ///
 /// Formula    damping forces C v, C = damping_mass M + damping_stiffness K (Rayleigh), K the
@@ -102,6 +109,7 @@ struct Dynamics {
   /// Explicit, instead of `scheme`: masses at the nodes, damping by mass alone.
   std::optional<solve::CentralDifferences> explicit_steps{};
   std::optional<TimeStepLengths> time_steps{};  ///< none: the nominal increments
+  MassScaling mass_scaling{};                   ///< with `explicit_steps`
 };
 
 /// Free vibrations about the state that the steps before led to, or about the one they began with.

@@ -8,6 +8,7 @@
 #include "osculate/la/linear_solver.hpp"
 #include "osculate/model/buckling.hpp"
 #include "osculate/model/evaluated.hpp"
+#include "osculate/model/mass_scaling.hpp"
 #include "osculate/model/model.hpp"
 #include "osculate/model/point_state.hpp"
 #include "osculate/model/state.hpp"
@@ -181,6 +182,15 @@ class BasicSystem {
   /// Explicit time integration from a committed state to a fraction of the running step, in as many
   /// time steps as are stable. To be called in steps with central differences only.
   [[nodiscard]] ExplicitIncrement<State> advance(const State& committed, double fraction);
+  /// What such a step adds to the masses of cells and nodes.
+  [[nodiscard]] const ScaledMasses& scaled_masses() const;
+  /// The longest time step that it takes in a state that `begin_motion` has made, and what governs
+  /// it.
+  struct FirstTimeStep {
+    double length = 0;
+    std::string governed;
+  };
+  [[nodiscard]] FirstTimeStep first_time_step(const State& begun);
 
   /// Unknowns of the matrix: those of the dof space, then the multipliers that are unknowns.
   [[nodiscard]] Index unknowns() const;

@@ -33,37 +33,13 @@ BasicSystem<Dim>::Impl::Explicit::Explicit(Impl& s)
   for (Vector* const v : {&past_internal, &past_contact, &past_external, &past_damping})
     v->setZero(n);
   x.resize(system.model.reference.size());
-  make_masses();
   make_followers();
   look_at_contact();
+  scale_masses();
   make_parts();
   system.bulk.linear.reserve([&](std::size_t cell) { return batches.takes(cell); },
                              [](std::size_t) { return false; });
   total.setZero(n);
-  inverse.setZero(n);
-  for (Dof d = 0; d < n; ++d) {
-    const Index unknown = system.dofs.unknown_of(d);
-    if (unknown >= 0 && !system.assembler.prescribed(unknown) && mass[d] > 0)
-      inverse[d] = 1 / mass[d];
-  }
-}
-
-template <int Dim>
-void BasicSystem<Dim>::Impl::Explicit::make_masses() {
-  const BasicModel<Dim>& whole = system.model;
-  node_mass.assign(whole.reference.size(), 0.0);
-  mass.setZero(system.dofs.dofs());
-  for (const typename BasicInertia<Dim>::CellMass& cell : system.motion->inertia.cells())
-    for (std::size_t k = 0; k < cell.nodes.size(); ++k) {
-      const auto i = static_cast<Eigen::Index>(k);
-      node_mass[static_cast<std::size_t>(cell.nodes[k])] += cell.mass(i, i);
-    }
-  for (std::size_t n = 0; n < node_mass.size(); ++n)
-    if (system.dofs.body_of(static_cast<Index>(n)) < 0)
-      mass.segment<Dim>(Dim * static_cast<Eigen::Index>(n)).setConstant(node_mass[n]);
-  for (std::size_t b = 0; b < whole.rigid.size(); ++b)
-    mass.segment<body::motions<Dim>>(system.dofs.body_dof(static_cast<Index>(b), 0)) =
-        system.motion->inertia.body_mass(b).diagonal();
 }
 
 template <int Dim>
@@ -79,9 +55,7 @@ void BasicSystem<Dim>::Impl::Explicit::make_followers() {
     if (equation.terms.size() > 1) {
       f.lead = equation.terms[1].dof;
       f.factor = -equation.terms[1].factor / of.factor;
-      mass[f.lead] += f.factor * f.factor * mass[f.dof];
     }
-    mass[f.dof] = 0;
     followers.push_back(f);
   }
   gathered = held;

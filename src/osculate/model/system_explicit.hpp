@@ -1,9 +1,11 @@
 #pragma once
 // Inside of BasicSystem: explicit time integration; included by its sources only.
+#include <algorithm>
 #include <string>
 #include <vector>
 
 #include "osculate/model/force_batches.hpp"
+#include "osculate/model/mass_scaling.hpp"
 #include "osculate/model/system_motion.hpp"
 #include "osculate/pairing/far_points.hpp"
 
@@ -42,17 +44,32 @@ struct BasicSystem<Dim>::Impl::Explicit {
   struct Turning {
     Vec3 momentum = Vec3::Zero(), moment = Vec3::Zero();
   };
+  /// Springs, or dampers, on one side of the contacts: at nodes, and at rigid bodies on which the
+  /// places of contact are not known.
+  struct Springs {
+    std::vector<double> nodes, bodies;
+  };
+  /// Squared frequencies of dofs that move by themselves, and of rigid bodies.
+  struct Swing {
+    Vector dofs;
+    std::vector<double> bodies;
+  };
   /// Works since the increment began.
   struct Works {
     double internal = 0, contact = 0, external = 0, damping = 0, supports = 0;
     double square = 0;  ///< of all forces of now: whether they are numbers
   };
 
+  /// The longest time step times the frequency of the springs of contacts: measure_stable_step.
+  static constexpr double faithful_share = 0.75;
+
   Impl& system;
   solve::CentralDifferences options;
   double damping;                 ///< by mass
-  std::vector<double> node_mass;  ///< of cells, at all nodes
-  Vector mass, inverse;  ///< of dofs with their followers; inverse: 0 where something follows
+  ScaledMasses scaled;            ///< what cells have beside their own mass
+  std::vector<double> node_mass;  ///< of cells, at all nodes, without that: what has a weight
+  /// Of dofs with their followers, with what is added; inverse: 0 where something follows.
+  Vector mass, inverse;
   std::vector<const PrescribedDof*> prescribed;
   std::vector<Dof> held;  ///< prescribed dofs that are unknowns
   std::vector<Follower> followers;
@@ -104,7 +121,6 @@ struct BasicSystem<Dim>::Impl::Explicit {
   [[nodiscard]] ExplicitIncrement<State> increment(const State& committed, double fraction);
 
   // system_explicit.cpp
-  void make_masses();
   void make_followers();
   void make_parts();
   void look_at_contact();
@@ -149,6 +165,13 @@ struct BasicSystem<Dim>::Impl::Explicit {
   [[nodiscard]] Vector inertia_forces(const Vector& acceleration) const;
   [[nodiscard]] Vec3 angular_velocity(std::size_t body) const;
 
+  // system_explicit_masses.cpp
+  /// What the step wants added, and all masses with it.
+  void scale_masses();
+  /// Those of nodes, with what `scaled` says; `mass` and `inverse` from them.
+  std::vector<double> set_masses();
+  void add_node_masses(const Springs& slave, const Springs& master, double allowed);
+
   // system_explicit_step.cpp
   void measure_stable_step();
   /// The largest eigenvalues of M^-1 K of cells by themselves: of all, and of those that touch.
@@ -161,19 +184,20 @@ struct BasicSystem<Dim>::Impl::Explicit {
   void look_at(std::size_t cell, BulkBlock& block, typename ForceBatches<Dim>::Stiffness& last,
                Fastest& fastest);
   [[nodiscard]] std::string governed() const;
+  [[nodiscard]] std::string faithful_by() const;  ///< likewise, of the step that keeps the energy
 
   // system_explicit_contact.cpp
-  /// Springs, or dampers, on one side of the contacts: at nodes, and at rigid bodies on which the
-  /// places of contact are not known.
-  struct Springs {
-    std::vector<double> nodes, bodies;
-  };
-  /// Squared frequencies of dofs that move by themselves, and of rigid bodies.
-  struct Swing {
-    Vector dofs;
-    std::vector<double> bodies;
-  };
   [[nodiscard]] double contact_frequency(bool dampers) const;
+  /// As if every point were in contact; `states` of the pairs, or nothing.
+  void collect_springs(bool dampers, const std::vector<pairing::PairState<Dim>>& states,
+                       Springs& slave, Springs& master) const;
+  [[nodiscard]] Springs no_springs() const;
+  /// Bounds of what both sides of contacts swing with: of nodes, and of rigid bodies.
+  struct Bound {
+    double nodes = 0, bodies = 0;
+    [[nodiscard]] double most() const { return std::max(nodes, bodies); }
+  };
+  [[nodiscard]] static Bound bound_of(const Swing& here, const Swing& there);
   void add_springs(const pairing::PairDefinition<Dim>& pair, const std::vector<double>& slopes,
                    Springs& slave, Springs& master) const;
   [[nodiscard]] Swing swing_of(const Springs& springs) const;

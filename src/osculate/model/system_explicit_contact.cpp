@@ -203,6 +203,40 @@ double BasicSystem<Dim>::Impl::Explicit::farthest_from(std::size_t body) const {
   return most;
 }
 
+template <int Dim>
+typename BasicSystem<Dim>::Impl::Explicit::Springs BasicSystem<Dim>::Impl::Explicit::no_springs()
+    const {
+  return {std::vector<double>(system.model.reference.size(), 0.0),
+          std::vector<double>(system.model.rigid.size(), 0.0)};
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::Explicit::collect_springs(
+    bool dampers, const std::vector<pairing::PairState<Dim>>& states, Springs& slave,
+    Springs& master) const {
+  const pairing::PairState<Dim> none;
+  for (std::size_t p = 0; p < system.model.pairs.size(); ++p) {
+    const pairing::PairDefinition<Dim>& pair = system.model.pairs[p].definition;
+    std::vector<double> slopes(pair.slave.points.size(), dampers ? damper(pair) : 0.0);
+    if (!dampers) {
+      const double steep = steepest(pair, p < states.size() ? states[p] : none);
+      for (std::size_t i = 0; i < slopes.size(); ++i) slopes[i] = stiffest(pair, steep, i);
+    }
+    add_springs(pair, slopes, slave, master);
+  }
+}
+
+template <int Dim>
+typename BasicSystem<Dim>::Impl::Explicit::Bound BasicSystem<Dim>::Impl::Explicit::bound_of(
+    const Swing& here, const Swing& there) {
+  Bound most;
+  for (Eigen::Index d = 0; d < here.dofs.size(); ++d)
+    if (here.dofs[d] > 0) most.nodes = std::max(most.nodes, here.dofs[d] + there.dofs[d]);
+  for (std::size_t i = 0; i < here.bodies.size(); ++i)
+    if (here.bodies[i] > 0) most.bodies = std::max(most.bodies, here.bodies[i] + there.bodies[i]);
+  return most;
+}
+
 /// Bound of the largest eigenvalue of M^-1 K of all springs of contacts, as if every point were in
 /// contact. The mass of a node on the master is shared among the points around it in proportion to
 /// their springs; a node, or a body, that is slave here and master there has the springs of both.
@@ -213,28 +247,10 @@ double BasicSystem<Dim>::Impl::Explicit::farthest_from(std::size_t body) const {
 /// Tested by  tests/unit/deck/test_explicit_contact_step.cpp
 template <int Dim>
 double BasicSystem<Dim>::Impl::Explicit::contact_frequency(bool dampers) const {
-  const BasicModel<Dim>& whole = system.model;
-  Springs slave{std::vector<double>(x.size(), 0.0), std::vector<double>(whole.rigid.size(), 0.0)};
-  Springs master = slave;
-  for (std::size_t p = 0; p < whole.pairs.size(); ++p) {
-    const pairing::PairDefinition<Dim>& pair = whole.pairs[p].definition;
-    std::vector<double> slopes(pair.slave.points.size(), dampers ? damper(pair) : 0.0);
-    if (!dampers) {
-      const double steep = steepest(pair, now.pairs[p]);
-      for (std::size_t i = 0; i < slopes.size(); ++i) slopes[i] = stiffest(pair, steep, i);
-    }
-    add_springs(pair, slopes, slave, master);
-  }
+  Springs slave = no_springs(), master = slave;
+  collect_springs(dampers, now.pairs, slave, master);
   const Swing a = swing_of(slave), b = swing_of(master);
-  const auto most_of = [](const Swing& here, const Swing& there) {
-    double most = 0;
-    for (Eigen::Index d = 0; d < here.dofs.size(); ++d)
-      if (here.dofs[d] > 0) most = std::max(most, here.dofs[d] + there.dofs[d]);
-    for (std::size_t i = 0; i < here.bodies.size(); ++i)
-      if (here.bodies[i] > 0) most = std::max(most, here.bodies[i] + there.bodies[i]);
-    return most;
-  };
-  return most_of(a, b) + most_of(b, a);
+  return bound_of(a, b).most() + bound_of(b, a).most();
 }
 
 template struct BasicSystem<2>::Impl::Explicit;

@@ -394,8 +394,31 @@ ExplicitIncrement<BasicState<Dim>> BasicSystem<Dim>::advance(const State& commit
   return impl_->explicit_motion->increment(committed, fraction);
 }
 
+template <int Dim>
+const ScaledMasses& BasicSystem<Dim>::scaled_masses() const {
+  return impl_->explicit_motion->scaled;
+}
+
+template <int Dim>
+typename BasicSystem<Dim>::FirstTimeStep BasicSystem<Dim>::first_time_step(const State& begun) {
+  typename Impl::Explicit& motion = *impl_->explicit_motion;
+  motion.load(begun);
+  const double stable = motion.options.safety * motion.stable_step(motion.motion);
+  double length = std::min(stable, motion.faithful_step());
+  std::string governed = length < stable ? motion.faithful_by() : motion.governed();
+  if (motion.options.step > 0 && motion.options.step < length) {
+    length = motion.options.step;
+    governed = "the longest one that is asked for";
+  }
+  return {length, governed};
+}
+
 template struct BasicSystem<2>::Impl;
 template struct BasicSystem<3>::Impl;
+template const ScaledMasses& BasicSystem<2>::scaled_masses() const;
+template const ScaledMasses& BasicSystem<3>::scaled_masses() const;
+template BasicSystem<2>::FirstTimeStep BasicSystem<2>::first_time_step(const State&);
+template BasicSystem<3>::FirstTimeStep BasicSystem<3>::first_time_step(const State3&);
 template ExplicitIncrement<State> BasicSystem<2>::advance(const State&, double);
 template ExplicitIncrement<State3> BasicSystem<3>::advance(const State3&, double);
 

@@ -27,9 +27,11 @@ Eigen::MatrixXd BasicSystem<Dim>::Impl::Explicit::scaled_stiffness(
     if (!block.ok) return {};
   }
   const Eigen::MatrixXd& mass_of = system.motion->inertia.cells()[cell].mass;
+  const double factor = scaled.factor(cell);
   Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most, 1> root(of_batch ? of_batch->rows()
                                                                      : block.dof_count);
-  for (Eigen::Index d = 0; d < root.size(); ++d) root[d] = 1 / std::sqrt(mass_of(d / Dim, d / Dim));
+  for (Eigen::Index d = 0; d < root.size(); ++d)
+    root[d] = 1 / std::sqrt(factor * mass_of(d / Dim, d / Dim));
   if (of_batch) return root.asDiagonal() * *of_batch * root.asDiagonal();
   return root.asDiagonal() * block.result.tangent * root.asDiagonal();
 }
@@ -100,7 +102,7 @@ void BasicSystem<Dim>::Impl::Explicit::measure_stable_step() {
                          : std::numeric_limits<double>::infinity();
   // A mass that touches anywhere within a step comes back from its spring after four of them with
   // 0.985 to 1.0006 of its energy; at 0.9 of the critical step with up to 1.8 of it.
-  if (springs > 0) stable.faithful = 0.75 / std::sqrt(springs);
+  if (springs > 0) stable.faithful = faithful_share / std::sqrt(springs);
   if (damping > 0) stable.faithful = std::min(stable.faithful, 0.5 / damping);
 }
 
@@ -118,6 +120,12 @@ std::string BasicSystem<Dim>::Impl::Explicit::governed() const {
   const CellNodes cell = cell_nodes(system.model.mesh, job.cell);
   return fmt::format("{} cell {} of '{}'", cell::info(cell.type).name,
                      mesh::cell_number(system.model.mesh, job.cell), job.section->name);
+}
+
+template <int Dim>
+std::string BasicSystem<Dim>::Impl::Explicit::faithful_by() const {
+  const bool by_damping = damping > 0 && stable.faithful == 0.5 / damping;
+  return by_damping ? "the damping by mass" : "impacts on the springs of the contacts";
 }
 
 template struct BasicSystem<2>::Impl::Explicit;

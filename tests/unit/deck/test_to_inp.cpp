@@ -397,6 +397,31 @@ TEST(ToInp, StepsOfAllKinds) {
   EXPECT_THAT(moves, HasSubstr("*INITIAL CONDITIONS, TYPE=VELOCITY\nc, 1, 3\n"));
 }
 
+TEST(ToInp, MassesOfExplicitSteps) {
+  const auto step = [](const std::string& name, const std::string& keys) {
+    return fmt::format(
+        "  - {{name: {}, dynamics: {{scheme: {}}}, increments: 4, duration: 2, forces: [{{on: "
+        "c.top, fx: 1}}]}}\n",
+        name, keys.empty() ? "central_differences" : "{central_differences: {" + keys + "}}");
+  };
+  const std::string model = cube(
+      elastic, "",
+      step("a", "") + step("b", "mass_scaling: {stable_step: 0.25, factor: 3}") + step("c", ""));
+  const std::string deck = written(model);
+  EXPECT_THAT(deck, HasSubstr("*DYNAMIC, EXPLICIT, DIRECT\n0.5, 2\n*FIXED MASS SCALING, FACTOR=3, "
+                              "DT=0.25\n"));
+  EXPECT_THAT(deck,
+              HasSubstr("*DYNAMIC, EXPLICIT, DIRECT\n0.5, 2\n*FIXED MASS SCALING, FACTOR=1\n"));
+  const Description after = again(model);
+  const auto scaling = [&](std::size_t s) { return after.steps.at(s).dynamics->mass_scaling; };
+  for (const std::size_t s : {std::size_t{0}, std::size_t{2}}) {
+    EXPECT_FALSE(scaling(s).stable_step.has_value()) << s;
+    EXPECT_EQ(scaling(s).factor, 1) << s;
+  }
+  EXPECT_EQ(scaling(1).stable_step, 0.25);
+  EXPECT_EQ(scaling(1).factor, 3);
+}
+
 TEST(ToInp, WhatADeckCannotSayOfTheNewKeys) {
   EXPECT_THAT(refusal_of(cube("deformation_plasticity: {E: 1000, nu: 0.25, yield: 3, n: 5, alpha: "
                               "0.3}",
