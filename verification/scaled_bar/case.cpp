@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "../body_path.hpp"
 #include "../cases.hpp"
 #include "../run_model.hpp"
 

@@ -61,9 +61,6 @@ InpMassScaling read_mass_scaling(const InpModel& m, const Card& card,
     io::inp::fail(m.deck, card,
                   fmt::format("the step has one already, in line {}: it is of all cells",
                               procedure.scaling.card->at.line));
-  if (const io::inp::Parameter* const type = find_parameter(card, "TYPE");
-      type && io::inp::capitals(type->value) != "BELOW MIN")
-    io::inp::fail(m.deck, card, "expected TYPE=BELOW MIN, which is usual");
   if (!find_parameter(card, "DT") && !find_parameter(card, "FACTOR"))
     io::inp::fail(m.deck, card, "expected DT, FACTOR or both");
   InpMassScaling scaling{&card, number_of(m, card, "DT", 0), number_of(m, card, "FACTOR", 1)};

@@ -146,7 +146,7 @@ constexpr std::array<InpKeyword, 152> keywords{{
      "increment, time", translated, "`steps.duration`, `steps.increments`"},
     {"DYNAMIC", "ALPHA, EXPLICIT, DIRECT; SOLVER, HAFTOL, HALFINC SCALE FACTOR, NOHAF, INITIAL",
      "increment, time", translated, "`steps.dynamics`"},
-    {"FIXED MASS SCALING", "DT, FACTOR, TYPE", "", translated,
+    {"FIXED MASS SCALING", "DT, FACTOR, TYPE=BELOW MIN", "", translated,
      "`steps.dynamics.scheme: {central_differences: {mass_scaling}}`, of all cells"},
     {"VARIABLE MASS SCALING", "", "", none, "masses change at the beginning of a step only"},
     {"FREQUENCY",

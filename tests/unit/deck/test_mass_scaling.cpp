@@ -86,7 +86,7 @@ TEST(MassScaling, IsOfTheCellsThatAreTooFastAlone) {
   const model::ScaledMasses::Section& bar = masses.sections[0];
   EXPECT_NEAR(bar.mass, bar_mass, 1e-12);
   EXPECT_NEAR(bar.added, (lacks * lacks - 1) * 0.1 * 2, 1e-9);
-  EXPECT_EQ(bar.needed, bar.added);
+  EXPECT_NEAR(bar.needed, bar.added, 1e-12);
   EXPECT_NEAR(bar.largest, lacks * lacks, 1e-10);
   EXPECT_EQ(bar.cells, 40u);
 }
@@ -164,9 +164,9 @@ TEST(MassScaling, HasTheSameBitsWithThreadsAndAfterARestart) {
 }
 
 /// Momentum with the masses that move.
-double momentum_of(const Built& built, const model::State& state) {
+double momentum_of(const Built& built, const model::System& system, const model::State& state) {
   const model::BasicInertia<2> inertia(built.model, true);
-  const model::ScaledMasses masses = masses_of(built);
+  const model::ScaledMasses& masses = system.scaled_masses();
   double sum = 0;
   for (std::size_t c = 0; c < inertia.cells().size(); ++c)
     for (std::size_t k = 0; k < inertia.cells()[c].nodes.size(); ++k) {
@@ -180,12 +180,16 @@ double momentum_of(const Built& built, const model::State& state) {
 TEST(MassScaling, KeepsMomentumAndTheBalanceOfEnergy) {
   const Built built = built_bar({.scheme = scaled_to("stable_step: 0.025"), .increments = 20});
   std::vector<double> momentum;
-  (void)run_to_end(built, 1, [&](auto&, const model::State& state) {
-    momentum.push_back(momentum_of(built, state));
+  model::AnalysisObserver observer;
+  observer.converged = [&](model::System& system, const model::State& state, const model::Progress&,
+                           const solve::IncrementRecord*) {
+    momentum.push_back(momentum_of(built, system, state));
     const model::Energies& e = state.rates.energies;
     EXPECT_NEAR(e.residual, 0, 1e-12);
     EXPECT_NEAR(e.kinetic + e.strain, e.start - e.numerical, 1e-12);
-  });
+    return true;
+  };
+  (void)model::run(built.model, {}, observer);
   ASSERT_GE(momentum.size(), 20u);
   for (const double p : momentum) EXPECT_NEAR(p, momentum.front(), 1e-12);
   // 0.2 everywhere, 1 at the left end, where nothing was added.
@@ -283,7 +287,7 @@ TEST(MassScaling, IsSeenByTheSpringsOfContacts) {
 ///
 /// Formula    m = S / w , S the penalty times the length that a node bears, w = (0.75 / h)^2
 TEST(MassScaling, OfNodesInContactIsWhatTheirSpringsNeed) {
-  const double step = 2e-4, h = 0.9 * step, penalty = 1e6;
+  const double step = 4e-4, h = 0.9 * step, penalty = 1e6;
   const auto with = [&](const std::string& scheme) {
     return build_text(edited(falling(scheme), "1e8", fmt::format("{}", penalty)));
   };

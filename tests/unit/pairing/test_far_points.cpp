@@ -196,7 +196,9 @@ TEST(FarPoints, BeyondTheReachOfAFilterAreLeftOutWithTheSameBits) {
   pairing::connect(upper);
   s.pair.slave = pairing::make_slave_side(upper);
   pairing::prepare(s.pair, s.x);
-  // Who comes to whom, with jumps, and after both have turned far from each other.
+  // Who comes to whom, with jumps, and after both have turned far from each other: about the
+  // direction in which they are apart, so that not even their boxes come near each other, and to
+  // touch where the turn has carried them farthest.
   for (const auto& kind : {std::pair(false, false), {true, false}, {false, true}}) {
     const bool of_master = kind.first, turns = kind.second;
     const double jump = of_master ? 15 : 0, high = turns ? 1.5 : 0.62;
@@ -206,14 +208,15 @@ TEST(FarPoints, BeyondTheReachOfAFilterAreLeftOutWithTheSameBits) {
       for (std::size_t n = 0; n < x.size(); ++n) {
         const Vec3& at = s.x[n];
         const bool up = n >= static_cast<std::size_t>(count);
-        const double down = high * (std::cos(2.3 * t) - 1) + 0.12 - 0.06 * at.x();
+        const double down =
+            high * (std::cos(2.3 * t) - 1) + 0.12 - 0.06 * (turns ? 6 - at.x() : at.x());
         const double bends = 0.05 * std::sin(3 * t + at.x());
         x[n] = at + Vec3(up ? 0.2 * std::sin(t) : 0.0, 0, 0);
         if (up)
           x[n].y() -= of_master ? bends : down;
         else
           x[n].y() += of_master ? down : bends;
-        if (turns) x[n] = Eigen::AngleAxisd(quarter_turns(2.3 * t), Vec3::UnitZ()) * x[n];
+        if (turns) x[n] = Eigen::AngleAxisd(quarter_turns(2.3 * t), Vec3::UnitY()) * x[n];
       }
     });
     EXPECT_GT(seen.touching, 200u);
