@@ -379,41 +379,6 @@ TEST(InpBetweenSteps, StepsInTime) {
             "expected ALPHA from -1/3 to 0");
 }
 
-// It holds until another one is said.
-TEST(InpBetweenSteps, MassScaling) {
-  const auto step = [](const std::string& card, const std::string& procedure = "EXPLICIT") {
-    return "*STEP\n*DYNAMIC, " + procedure + "\n1.E-5, 1.E-4\n" + card + "*END STEP\n";
-  };
-  const std::string by_step = step("*FIXED MASS SCALING, DT=2.E-6, TYPE=BELOW MIN\n");
-  const std::string steps = part(by_step + step("") + step("*Fixed Mass Scaling, FACTOR=9\n") +
-                                     step("*FIXED MASS SCALING, FACTOR=4, DT=1.E-6\n") +
-                                     step("*FIXED MASS SCALING, FACTOR=1\n") + step(""),
-                                 "steps");
-  std::vector<std::string> found;
-  for (std::size_t at = steps.find("scheme:"); at != std::string::npos;
-       at = steps.find("scheme:", at + 1))
-    found.push_back(steps.substr(at, steps.find("- name", at) - at));
-  ASSERT_EQ(found.size(), 6u) << steps;
-  for (const int i : {0, 1}) expect_in(found[static_cast<std::size_t>(i)], "{stable_step: 2e-06}");
-  expect_in(found[2], "{factor: 9}");
-  expect_in(found[3], "{stable_step: 1e-06, factor: 4}");
-  for (const int i : {4, 5})
-    expect_in(found[static_cast<std::size_t>(i)], "scheme: central_differences");
-  EXPECT_EQ(message_of(by_step), "no error");
-  expect_in(message_of(step("*FIXED MASS SCALING, DT=1.E-6\n", "ALPHA=-0.1")),
-            "belongs behind *DYNAMIC, EXPLICIT");
-  expect_in(message_of(step("*FIXED MASS SCALING\n")), "expected DT, FACTOR or both");
-  expect_in(message_of(step("*FIXED MASS SCALING, DT=0\n")), "expected DT above 0");
-  expect_in(message_of(step("*FIXED MASS SCALING, FACTOR=0.5\n")), "expected FACTOR of 1 or more");
-  expect_in(message_of(step("*FIXED MASS SCALING, DT=1E-6, TYPE=UNIFORM\n")),
-            "expected TYPE=BELOW MIN");
-  expect_in(message_of(step("*FIXED MASS SCALING, DT=1E-6, ELSET=A\n")), "ELSET");
-  expect_in(message_of(step("*FIXED MASS SCALING, DT=1E-6\n*FIXED MASS SCALING, DT=2E-6\n")),
-            "the step has one already");
-  expect_in(message_of(step("*VARIABLE MASS SCALING, DT=1E-6, FREQUENCY=10\n")),
-            "VARIABLE MASS SCALING");
-}
-
 TEST(InpBetweenSteps, Vibrations) {
   const std::string frequency = "*FREQUENCY\n12\n*END STEP\n";
   const std::string deck = dry + pair + press + "*STEP, PERTURBATION\n" + frequency;
