@@ -289,6 +289,7 @@ Projection<2> closest(const Chain& chain, const Tree<2>& tree, std::span<const V
   const auto visit = [&](Index f) {
     const Facet& facet = chain.facets[static_cast<std::size_t>(f)];
     if (query.filter && query.filter->skips(f, query.slave_normal)) return far_away;
+    if (faces_same_way(query, f)) return far_away;
     const CurveFoot foot = foot_on_facet(chain, facet, x, query);
     const double distance = std::sqrt(foot.squared_distance);
     const double cosine = cosine_at(facet, foot, x, query);
@@ -303,7 +304,8 @@ Projection<2> closest(const Chain& chain, const Tree<2>& tree, std::span<const V
     return distance;
   };
   const auto wanted = [&](Index branch) {
-    return !query.filter || !query.filter->misses(branch, query.slave_normal);
+    if (query.filter) return !query.filter->misses(branch, query.slave_normal);
+    return !branch_faces_same_way(query, branch);
   };
   // First where the point was: most others are farther away than that.
   const double tie = tie_distance(chain, x);

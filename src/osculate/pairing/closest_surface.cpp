@@ -393,6 +393,7 @@ Projection<3> closest(const FacetSurface& surface, const Tree<3>& tree, std::spa
   const auto visit = [&](Index f) {
     const SurfaceFacet& facet = surface.facets[static_cast<std::size_t>(f)];
     if (query.filter && query.filter->skips(f, query.slave_normal)) return far_away;
+    if (faces_same_way(query, f)) return far_away;
     const double tie = 1e-10 * size_of(facet, x);
     const double limit = best.distance + tie;
     const FacetFoot foot = foot_on_facet(surface, facet, x, query, limit);
@@ -409,7 +410,8 @@ Projection<3> closest(const FacetSurface& surface, const Tree<3>& tree, std::spa
     return distance;
   };
   const auto wanted = [&](Index branch) {
-    return !query.filter || !query.filter->misses(branch, query.slave_normal);
+    if (query.filter) return !query.filter->misses(branch, query.slave_normal);
+    return !branch_faces_same_way(query, branch);
   };
   // First where the point was: most others are farther away than that.
   const double tie = 1e-10 * size_of(surface.facets.front(), x);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "osculate/pairing/candidate_filter.hpp"
+#include "osculate/pairing/same_way.hpp"
 
 namespace osculate::pairing {
 
@@ -16,6 +17,19 @@ template <int Dim>
   if (!query.filter || query.filter->facing.empty()) return false;
   const auto faces = [&](const Vec<Dim>& n) { return n.dot(normal) < facing_cosine; };
   return std::none_of(query.filter->facing.begin(), query.filter->facing.end(), faces);
+}
+
+/// Whether all of a facet, or of a branch of the tree, faces the same way as the point, as far as
+/// that is known without a projection.
+template <int Dim>
+[[nodiscard]] bool faces_same_way(const ProjectionQuery<Dim>& query, Index facet) {
+  return query.same_way && query.slave_normal &&
+         query.same_way->facets[static_cast<std::size_t>(facet)].holds(*query.slave_normal);
+}
+template <int Dim>
+[[nodiscard]] bool branch_faces_same_way(const ProjectionQuery<Dim>& query, Index branch) {
+  return query.same_way && query.slave_normal &&
+         query.same_way->branches[static_cast<std::size_t>(branch)].holds(*query.slave_normal);
 }
 
 /// Whether the surface ends for this point between two facets with these normals, `arm` from the

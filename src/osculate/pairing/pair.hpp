@@ -15,6 +15,7 @@
 #include "osculate/pairing/mortar_buffers.hpp"
 #include "osculate/pairing/projected_point.hpp"
 #include "osculate/pairing/relative_stiffness.hpp"
+#include "osculate/pairing/same_way.hpp"
 #include "osculate/pairing/slave_side.hpp"
 
 namespace osculate::pairing {
@@ -236,6 +237,7 @@ struct PairEvaluation {
   std::vector<GregoryPoints> patches;  ///< of the master's facets; empty where none is smooth
   Tree<Dim> tree;
   FilterBuffers<Dim> filter;
+  SameWay<Dim> same_way;  ///< without a candidate filter, where points had no place before
   MortarBuffers<Dim> mortar;
   /// With re-entrant vertices: the multipliers as the states that were found take them, one per
   /// slave point.

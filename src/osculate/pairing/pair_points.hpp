@@ -64,11 +64,24 @@ void refresh_blocks(const PairDefinition<Dim>& pair, PairEvaluation<Dim>& out) {
   for (std::size_t k = n; k < out.blocks.size(); ++k) clear_block(out.blocks[k]);
 }
 
+/// Whether points were looked for on many facets in vain, or nobody knows yet.
+template <int Dim>
+bool some_had_no_place(const PairDefinition<Dim>& pair, const PairEvaluation<Dim>& out) {
+  constexpr std::size_t few = 16;
+  if (pair.master.facets.size() < few) return false;
+  const std::size_t n = std::min(out.points.size(), pair.slave.points.size());
+  const auto end = out.points.begin() + static_cast<std::ptrdiff_t>(n);
+  return out.points.empty() ||
+         std::any_of(out.points.begin(), end,
+                     [](const PointResult<Dim>& point) { return point.history.facet < 0; });
+}
+
 /// All that the points of a pair share at `x`. `only`: the points that will be looked at.
 template <int Dim>
 void refresh(const PairDefinition<Dim>& pair, Points<Dim> x, bool with_tangent,
              PairEvaluation<Dim>& out, const std::vector<std::size_t>* only = nullptr) {
   const std::size_t n = pair.slave.points.size();
+  const bool in_vain = some_had_no_place(pair, out);
   out.points.resize(n);
   const std::size_t before = out.boxes.size();
   if (!rests(pair.master, x, out.master_at)) {
@@ -85,6 +98,7 @@ void refresh(const PairDefinition<Dim>& pair, Points<Dim> x, bool with_tangent,
       nodal_areas(pair.filter.parts, x, pair.area, out.filter.areas,
                   with_tangent ? &out.filter.area_gradients : nullptr);
   }
+  if (!out.planted) out.same_way.fresh = false;
   out.apart = beyond_search(pair, x, out.boxes);
   if (pair.filter.limited()) {
     // The first evaluation gives the tree its shape, so that it does not depend on when they met.
@@ -102,12 +116,14 @@ void refresh(const PairDefinition<Dim>& pair, Points<Dim> x, bool with_tangent,
   } else {
     point_normals<Dim>(pair.slave, x, out.normals);
   }
-  if (out.planted) return;
-  if (before == out.boxes.size() && before > 0)
-    out.tree.refit(out.boxes);
-  else
-    out.tree = Tree<Dim>(out.boxes);
-  out.planted = true;
+  if (!out.planted) {
+    if (before == out.boxes.size() && before > 0)
+      out.tree.refit(out.boxes);
+    else
+      out.tree = Tree<Dim>(out.boxes);
+    out.planted = true;
+  }
+  if (in_vain && !out.same_way.fresh) out.same_way.refresh(pair.master, x, out.tree);
 }
 inline std::array<Index, 2> neighbours(const Facet& facet) { return {facet.prev, facet.next}; }
 inline const auto& neighbours(const SurfaceFacet& facet) { return facet.neighbour; }

@@ -77,6 +77,7 @@ template <int Dim>
   if (pair.slave.points[i].inside && is<MayPart>(pair.separation))
     query.beyond_open = border_tolerance;
   query.patches = work.patches;
+  if (work.same_way.fresh) query.same_way = &work.same_way;
   NodeFilter<Dim> rules;
   if (pair.filter.limited()) {
     rules = node_filter<Dim>(pair.filter, pair.slave, work.filter, i, query.point);

@@ -29,6 +29,8 @@ struct Projection {
 
 template <int Dim>
 struct NodeFilter;
+template <int Dim>
+struct SameWay;
 
 template <int Dim>
 struct ProjectionQuery {
@@ -43,6 +45,7 @@ struct ProjectionQuery {
   const NodeFilter<Dim>* filter =
       nullptr;            ///< null: every facet is a candidate (candidate filter.hpp)
   PatchPoints patches{};  ///< of the master
+  const SameWay<Dim>* same_way = nullptr;  ///< saves projections; null: not known
   /// An equidistant point has no side of its own: it belongs to the border between both facets.
   [[nodiscard]] bool shares() const {
     return history < 0 || history_feature == projection::Feature::edge ||
