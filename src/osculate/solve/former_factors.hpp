@@ -11,14 +11,15 @@ namespace osculate::solve::detail {
 /// The factors of a former iteration of the same increment, which solve for further corrections.
 /// Where points have changed their states since, a hundred-millionth of what is out of balance may
 /// be left: the next iteration finds other states anyway. Once two iterations have the same states,
-/// something may have come loose that was held: a solution for noise says whether all is held in
-/// unsymmetric tangents; those of symmetric kinds are factored, as their pivots are counted. No
-/// increment ends before that (`doubtful`). Not where the energy alone says when iterations end.
+/// something may have come loose that was held: a solution for noise says whether all is held, and
+/// of symmetric kinds whether the equilibrium is stable. No increment ends before that
+/// (`doubtful`). Not where the energy alone says when iterations end.
 ///
 /// Formula    |R + K du| <= a tenth of the residual that ends the iterations, and 1e-8 |R|: where
 ///            the rest of the way is linear it is the last correction, as by factors of its own;
 ///            1e-8 |R| where states have changed
-/// Decision   docs/decisions/059-former-factors.md, 091-noise-instead-of-factors.md
+/// Decision   docs/decisions/059-former-factors.md, 091-noise-instead-of-factors.md,
+///            099-stable-by-conjugate-gradients.md
 /// Tested by  tests/unit/solve/test_former_factors.cpp
 class FormerFactors {
  public:
