@@ -123,8 +123,11 @@ std::string time_step_text(const TimeStepOutlook& outlook) {
     text += fmt::format(
         "{} {:g} times as long: ", &longer == &outlook.longer.front() ? "; `mass_scaling`," : ",",
         longer.times);
-    text += longer.reached ? fmt::format("{:.2g} % more mass", percent * longer.share)
-                           : std::string("not by mass of bodies");
+    const double share = percent * longer.share;
+    text += longer.reached
+                ? fmt::format(fmt::runtime(share < percent ? "{:.2g}" : "{:.0f}"), share) +
+                      " % more mass"
+                : std::string("not by mass of bodies");
   }
   return text;
 }
