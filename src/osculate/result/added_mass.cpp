@@ -1,10 +1,10 @@
 #include "osculate/result/added_mass.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <array>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 namespace osculate::result {
 namespace {
@@ -12,6 +12,18 @@ namespace {
 constexpr double percent = 100;
 
 double share_of(double added, double mass) { return mass > 0 ? added / mass : 0; }
+
+/// Of all bodies.
+model::ScaledMasses::Section sum_of(const model::ScaledMasses& masses) {
+  model::ScaledMasses::Section sum;
+  for (const model::ScaledMasses::Section& body : masses.sections) {
+    sum.mass += body.mass;
+    sum.added += body.added;
+    sum.scaled += body.scaled;
+    sum.nodes += body.nodes;
+  }
+  return sum;
+}
 
 std::string wanted_text(const model::MassScaling& wanted) {
   std::string text;
@@ -58,8 +70,6 @@ std::vector<std::string> added_mass_warnings(const AddedMass& added) {
 
 nlohmann::json added_mass_json(const AddedMass& added) {
   nlohmann::json bodies = nlohmann::json::array();
-  double mass = 0, more = 0;
-  std::size_t cells = 0, nodes = 0;
   for (const model::ScaledMasses::Section& body : added.masses.sections) {
     bodies.push_back({{"name", body.name},
                       {"mass", body.mass},
@@ -68,17 +78,14 @@ nlohmann::json added_mass_json(const AddedMass& added) {
                       {"cells", body.scaled},
                       {"nodes", body.nodes},
                       {"largest_factor", body.largest}});
-    mass += body.mass;
-    more += body.added;
-    cells += body.scaled;
-    nodes += body.nodes;
   }
+  const model::ScaledMasses::Section all = sum_of(added.masses);
   return {{"stable_step", added.wanted.stable_step},
           {"factor", added.wanted.factor},
-          {"added", more},
-          {"share", share_of(more, mass)},
-          {"cells", cells},
-          {"nodes", nodes},
+          {"added", all.added},
+          {"share", share_of(all.added, all.mass)},
+          {"cells", all.scaled},
+          {"nodes", all.nodes},
           {"bodies", bodies}};
 }
 
@@ -102,17 +109,9 @@ TimeStepOutlook time_step_outlook(model::BasicSystem<Dim>& system, const model::
     with.dynamics->explicit_steps->step = 0;
     with.dynamics->mass_scaling.stable_step =
         longer * first.length / step.dynamics->explicit_steps->safety;
-    TimeStepOutlook::Longer of{longer, 0, 0, 0, true};
-    of.reached = first_of(with).length > nearly * longer * first.length;
-    double mass = 0, added = 0;
-    for (const model::ScaledMasses::Section& body : system.scaled_masses().sections) {
-      mass += body.mass;
-      added += body.added;
-      of.cells += body.scaled;
-      of.nodes += body.nodes;
-    }
-    of.share = share_of(added, mass);
-    out.longer.push_back(of);
+    const bool reached = first_of(with).length > nearly * longer * first.length;
+    const model::ScaledMasses::Section all = sum_of(system.scaled_masses());
+    out.longer.push_back({longer, share_of(all.added, all.mass), all.scaled, all.nodes, reached});
   }
   return out;
 }
