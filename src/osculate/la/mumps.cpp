@@ -9,6 +9,7 @@
 #include <exception>
 #include <limits>
 
+#include "osculate/core/machine.hpp"
 #include "osculate/core/memory.hpp"
 #include "osculate/la/accuracy.hpp"
 #include "osculate/la/mumps_library.hpp"
@@ -90,6 +91,7 @@ struct Mumps::Impl {
   void look_at_accuracy(FactorReport& report);
   [[nodiscard]] FactorReport outcome() const;
   [[nodiscard]] double needed_bytes() const;
+  [[nodiscard]] double needed_here() const;
   [[nodiscard]] std::string memory_text() const;
   [[nodiscard]] Eigen::VectorXd multiplied(const Eigen::VectorXd& x) const;
   [[nodiscard]] Eigen::VectorXd row_scale() const;
@@ -215,6 +217,13 @@ double Mumps::Impl::needed_bytes() const {
   return 1e6 * id.infog[16] / (1 + 0.01 * id.icntl[slack]);
 }
 
+/// The part of it that processes of this machine need.
+double Mumps::Impl::needed_here() const {
+  if (!ranks) return needed_bytes();
+  const double of_process = 1e6 * id.info[14] / (1 + 0.01 * id.icntl[slack]);
+  return core::sum_on_machine(*ranks, of_process, core::mark_of_machine());
+}
+
 std::string Mumps::Impl::memory_text() const {
   return "not enough memory for the factors of the tangent of " + std::to_string(n) + " unknowns" +
          (needed_bytes() > 0 ? ", about " + core::memory_text(needed_bytes()) : "");
@@ -266,8 +275,8 @@ FactorReport Mumps::Impl::prepare(const SparseMatrix& k, std::uint64_t wanted_ve
   FactorReport report = outcome();
   analysed = report.status == SolveStatus::ok;
   // Where there is less in the whole machine, the system would end the program without a word.
-  const double all = core::memory_in_all();
-  if (!agreed(all <= 0 || needed_bytes() <= all)) throw NotEnoughMemory(memory_text());
+  const double all = core::memory_in_all(), needed = needed_here();
+  if (!agreed(all <= 0 || needed <= all)) throw NotEnoughMemory(memory_text());
   // What was freed lies between what was kept, in pieces too small for the factors.
   constexpr double large = 16e6;
   if (needed_bytes() > large) (void)malloc_trim(0);

@@ -1,0 +1,35 @@
+#include "osculate/core/machine.hpp"
+
+#include <unistd.h>
+
+#include <array>
+#include <fstream>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace osculate::core {
+
+double mark_of_machine() {
+  std::string name;
+  std::getline(std::ifstream("/proc/sys/kernel/random/boot_id"), name);
+  std::array<char, 256> host{};
+  if (gethostname(host.data(), host.size() - 1) == 0) name += host.data();
+  constexpr unsigned exact = 12;  // bits of the hash that a number has not, and a sign
+  return static_cast<double>(std::hash<std::string>{}(name) >> exact);
+}
+
+double sum_on_machine(const Ranks& ranks, double value, double mark) {
+  const auto count = static_cast<std::size_t>(ranks.count());
+  const auto here = static_cast<std::size_t>(ranks.rank());
+  std::vector<double> of_all(2 * count, Ranks::nothing);  // marks, then values
+  of_all[here] = mark;
+  of_all[count + here] = value;
+  ranks.sum(of_all);
+  double sum = 0;
+  for (std::size_t r = 0; r < count; ++r)
+    if (of_all[r] == mark) sum += of_all[count + r];
+  return sum;
+}
+
+}  // namespace osculate::core

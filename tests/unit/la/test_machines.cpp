@@ -1,0 +1,26 @@
+#include <gtest/gtest.h>
+
+#include "osculate/core/machine.hpp"
+#include "ranks.hpp"
+
+namespace osculate::core {
+namespace {
+
+TEST(Machines, WhatProcessesOfOneMachineNeedIsSummedUp) {
+  testing::as_ranks(5, [](const Ranks& ranks) {
+    const double machine = ranks.rank() < 2 ? 7 : 9;  // two on one, three on another
+    const double need = 10.0 + ranks.rank();
+    EXPECT_EQ(sum_on_machine(ranks, need, machine), ranks.rank() < 2 ? 21 : 39);
+    EXPECT_EQ(sum_on_machine(ranks, need, mark_of_machine()), 60);
+  });
+}
+
+TEST(Machines, AMarkIsANumberThatAllProcessesOfAMachineHave) {
+  const double mark = mark_of_machine();
+  EXPECT_GE(mark, 0);
+  EXPECT_LT(mark, 4503599627370496.0);  // 2^52: exact, also where it is summed up with nothing
+  EXPECT_EQ(mark, mark_of_machine());
+}
+
+}  // namespace
+}  // namespace osculate::core
