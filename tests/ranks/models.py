@@ -109,12 +109,30 @@ EXPLICIT = """osculate: 1
 mesh: {generate: {b: {box: {x: [0, 1], y: [0.01, 1.01], elements: [6, 6]}}}}
 materials: {m: {neo_hooke: {E: 100, nu: 0.3, density: 1}}}
 sections: [{on: b, material: m, element: plane_strain}]
-rigid: {floor: {polyline: {points: [[3, 0], [-2, 0]]}}}
+rigid: {floor: {polyline: {points: [[-2, 0], [3, 0]]}}}
 contact: [{name: c, master: floor, slave: b.bottom, normal: {penalty: 1000}, friction: {coulomb: {mu: 0.2}}}]
 initial_velocity: [{on: b, vx: 1, vy: -1}]
 steps:
   - {name: fall, increments: 5, duration: 0.2, dynamics: {scheme: central_differences}, prescribe: [{on: floor, ux: 0, uy: 0, rz: 0}]}
 output: {history: [{on: b.bottom, of: vy}, {on: c, of: normal_force}]}
+"""
+# Cells of explicit steps are dealt out in parts of 2048; those that are evaluated one by one in parts of 512.
+PARTS = """osculate: 1
+mesh: {generate: {b: {box: {x: [0, 1], y: [0.002, 1.002], elements: [60, 60]}},
+                  c: {box: {x: [1.5, 2], y: [0.002, 0.502], elements: [24, 24], type: quad8}}}}
+materials:
+  m: {neo_hooke: {E: 100, nu: 0.3, density: 1}}
+  p: {elastoplastic: {E: 100, nu: 0.3, density: 1, hardening: [[1, 0], [11, 1]]}}
+sections: [{on: b, material: p, element: plane_strain}, {on: c, material: m, element: plane_strain}]
+rigid: {floor: {polyline: {points: [[-2, 0], [3, 0]]}}}
+contact:
+  - {name: c, master: floor, slave: b.bottom, normal: {penalty: 10000}, friction: {coulomb: {mu: 0.2}}}
+  - {name: d, master: floor, slave: c.bottom, normal: {penalty: 10000}}
+initial_velocity: [{on: b, vx: 1, vy: -2}, {on: c, vx: 1, vy: -2}]
+steps:
+  - {name: fall, increments: 4, duration: 0.02, dynamics: {scheme: central_differences}, prescribe: [{on: floor, ux: 0, uy: 0, rz: 0}]}
+  - {name: rest, increments: 1, duration: 0.001, dynamics: {scheme: central_differences}, prescribe: [{on: floor, ux: 0, uy: 0, rz: 0}]}
+output: {history: [{on: b.bottom, of: vy}, {on: b.top, of: uy}, {on: c, of: normal_force}, {on: d, of: normal_force}, {on: c.top, of: vx}]}
 """
 FRICTION = "friction: {coulomb: {mu: 0.3}}"
 SVK = "{st_venant_kirchhoff: {E: 100, nu: 0.3}}"
@@ -156,9 +174,11 @@ MODELS = {
     "modes": MODES,
     "tied and plastic": TIED,
     "explicit": EXPLICIT,
+    "explicit in parts": PARTS,
 }
 # Of histories, where each way of solving has iterations of its own, to 1e-10 of the forces; seen: 4e-10.
 TOLERANCES = {"by multigrid": 1e-8}
+SAME_BITS = {"explicit", "explicit in parts"}
 # In the repository; without the folder of results.
 FILES = {
     "bodies come and go": "verification/body_changes/parallel.yaml",

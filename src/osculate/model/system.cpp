@@ -218,7 +218,8 @@ std::vector<ContactStates> BasicSystem<Dim>::recent_contact() const {
 
 template <int Dim>
 BasicState<Dim> BasicSystem<Dim>::commit(const Trial& trial, double fraction) const {
-  impl_->bulk.exchange_memory(impl_->last.memory);
+  if (const core::Ranks* const ranks = impl_->bulk.ranks)
+    impl_->bulk.exchange_memory(*ranks, impl_->bulk.shares.own_cells, impl_->last.memory);
   State state = trial.state;
   if (impl_->timed()) {
     state.rates = impl_->motion->new_rates(trial.state);

@@ -94,32 +94,6 @@ void BasicSystem<Dim>::Impl::Explicit::look_at_contact() {
 }
 
 template <int Dim>
-void BasicSystem<Dim>::Impl::Explicit::make_parts() {
-  const std::size_t nodes = system.model.reference.size();
-  std::vector<std::size_t> uses(nodes, 0), slot(nodes, 0);
-  for (std::size_t p = 0; p < batches.parts(); ++p)
-    for (const Index node : batches.nodes(p)) ++uses[static_cast<std::size_t>(node)];
-  std::size_t slots = 0;
-  for (std::size_t n = 0; n < nodes; ++n) {
-    if (uses[n] < 2) continue;
-    parts.shared.push_back(static_cast<Index>(n));
-    parts.begin.push_back(slots);
-    slot[n] = slots;
-    slots += uses[n];
-  }
-  parts.begin.push_back(slots);
-  parts.slots.assign(Dim * slots, 0.0);
-  const auto dofs = static_cast<Index>(system.dofs.dofs());
-  for (std::size_t p = 0; p < batches.parts(); ++p) {
-    parts.first.push_back(parts.place.size());
-    for (const Index node : batches.nodes(p)) {
-      const auto n = static_cast<std::size_t>(node);
-      parts.place.push_back(uses[n] < 2 ? Dim * node : dofs + Dim * static_cast<Index>(slot[n]++));
-    }
-  }
-}
-
-template <int Dim>
 void BasicSystem<Dim>::Impl::Explicit::place(const Vector& position) {
   for (std::size_t n = 0; n < x.size(); ++n)
     x[n] = system.model.reference[n] + position.segment<Dim>(Dim * static_cast<Eigen::Index>(n));
@@ -158,42 +132,12 @@ std::ptrdiff_t BasicSystem<Dim>::Impl::Explicit::add_part(std::size_t part, cons
     }
   }
   for (std::size_t i = others.begin; i < others.end; ++i) alone(batches.others()[i]);
-  const Index* const place = &parts.place[parts.first[part]];
+  const Index* const place = &parts.place[parts.first[part - parts.from]];
   for (std::size_t n = 0; n < with.force.size(); ++n) {
     double* const to = at_place(place[n]);
     for (int i = 0; i < Dim; ++i) to[i] = with.force[n][i];
   }
   return failed;
-}
-
-template <int Dim>
-bool BasicSystem<Dim>::Impl::Explicit::add_cells(const Vector& u, double h) {
-  const Stopwatch watch;
-  const auto count = static_cast<std::ptrdiff_t>(system.bulk.jobs.size());
-  const auto shared = static_cast<std::ptrdiff_t>(parts.shared.size());
-  const auto all = static_cast<std::ptrdiff_t>(batches.parts());
-  std::ptrdiff_t failed = count;
-  Vector& internal = system.last.forces.internal;
-#pragma omp parallel num_threads(system.bulk.threads)
-  {
-#pragma omp for schedule(static) reduction(min : failed)
-    for (std::ptrdiff_t p = 0; p < all; ++p)
-      failed = std::min(failed, add_part(static_cast<std::size_t>(p), u, h));
-#pragma omp for schedule(static)
-    for (std::ptrdiff_t s = 0; s < shared; ++s) {
-      const auto at = static_cast<std::size_t>(s);
-      Vec<Dim> sum = Vec<Dim>::Zero();
-      for (std::size_t e = parts.begin[at]; e < parts.begin[at + 1]; ++e)
-        sum += Eigen::Map<const Vec<Dim>>(&parts.slots[Dim * e]);
-      internal.template segment<Dim>(Dim * parts.shared[at]) = sum;
-    }
-  }
-  system.bulk.seconds += watch.seconds();
-  if (failed == count) return true;
-  system.bulk.evaluate(static_cast<std::size_t>(failed), u, now.memory, {}, h, false,
-                       work.front().block);
-  trouble = work.front().block.message;
-  return false;
 }
 
 template <int Dim>

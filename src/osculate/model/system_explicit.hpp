@@ -26,14 +26,20 @@ struct BasicSystem<Dim>::Impl::Explicit {
     double factor;
   };
   /// How the forces of the parts of `batches` become those of nodes. The parts do not depend on the
-  /// number of threads, so that the bits do not. A node of one part only gets its force from there;
-  /// others have a slot in each part, and the slots are summed in order.
+  /// number of threads and processes, so that the bits do not. A node of one part only gets its
+  /// force from there; others have a slot in each part, and the slots are summed in order. A
+  /// process evaluates its parts, gets the forces of other processes' nodes from them, and the
+  /// slots of nodes that several have.
   struct Parts {
-    std::vector<Index> place;        ///< of the parts' nodes: first dof, or dofs + that of the slot
-    std::vector<std::size_t> first;  ///< of a part's places
+    std::size_t from = 0, to = 0;    ///< that are evaluated here
+    std::vector<Index> place;        ///< of their nodes: first dof, or dofs + that of the slot
+    std::vector<std::size_t> first;  ///< of a part's places, from the first one here
     std::vector<double> slots;
-    std::vector<Index> shared;       ///< nodes with slots
+    std::vector<Index> shared;       ///< nodes with slots, first those of several processes
     std::vector<std::size_t> begin;  ///< of their slots
+    std::size_t across = 0;          ///< nodes of several processes
+    std::vector<Index> not_here;     ///< nodes that others have forces of, or several
+    std::vector<std::size_t> slots_of_others;  ///< of nodes of several processes
   };
   /// What a thread works with.
   struct Work {
@@ -122,11 +128,9 @@ struct BasicSystem<Dim>::Impl::Explicit {
 
   // system_explicit.cpp
   void make_followers();
-  void make_parts();
   void look_at_contact();
   void load(const State& committed);
   void place(const Vector& position);
-  [[nodiscard]] bool add_cells(const Vector& u, double h);
   /// A cell by itself; false: it has no answer.
   [[nodiscard]] bool add_cell(std::size_t cell, const Vector& u, double h, Work& with);
   /// Where the forces of a place stand.
@@ -165,6 +169,24 @@ struct BasicSystem<Dim>::Impl::Explicit {
   [[nodiscard]] Vector inertia_forces(const Vector& acceleration) const;
   [[nodiscard]] Vec3 angular_velocity(std::size_t body) const;
 
+  // system_explicit_parts.cpp
+  void make_parts();
+  void number_slots();
+  [[nodiscard]] bool add_cells(const Vector& u, double h);
+  void sum_slots(std::size_t begin, std::size_t end);
+  void exchange_forces();
+  /// The first cell of all processes that has no answer; false, and `trouble` says why.
+  [[nodiscard]] bool all_have_answers(std::ptrdiff_t failed, const Vector& u, double h);
+  /// What the materials of other processes' parts remember.
+  void exchange_memory(std::vector<double>& memory) const;
+  template <class Visit>
+  void for_each_job(std::size_t part, const Visit& visit) const {
+    const auto fours = batches.fours(part), others = batches.alone(part);
+    for (std::size_t f = fours.begin; f < fours.end; ++f)
+      for (const std::size_t cell : batches.jobs(f)) visit(cell);
+    for (std::size_t i = others.begin; i < others.end; ++i) visit(batches.others()[i]);
+  }
+
   // system_explicit_masses.cpp
   /// What the step wants added, and all masses with it.
   void scale_masses();
@@ -183,6 +205,8 @@ struct BasicSystem<Dim>::Impl::Explicit {
                                                  typename ForceBatches<Dim>::Stiffness& last);
   void look_at(std::size_t cell, BulkBlock& block, typename ForceBatches<Dim>::Stiffness& last,
                Fastest& fastest);
+  [[nodiscard]] Fastest fastest_before();
+  [[nodiscard]] Fastest of_all(const Fastest& here) const;
   [[nodiscard]] std::string governed() const;
   [[nodiscard]] std::string faithful_by() const;  ///< likewise, of the step that keeps the energy
 

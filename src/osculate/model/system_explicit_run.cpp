@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "osculate/model/system_explicit.hpp"
 #include "osculate/model/temperatures.hpp"
@@ -194,12 +195,14 @@ Rates BasicSystem<Dim>::Impl::Explicit::begin(const State& committed, Rates rate
 template <int Dim>
 solid::CellEnergy BasicSystem<Dim>::Impl::Explicit::cells_energy(
     const Eigen::VectorXd& u, const std::vector<double>& memory) const {
-  const auto parts_count = static_cast<std::ptrdiff_t>(batches.parts());
-  std::vector<solid::CellEnergy> of_part(batches.parts());
+  const auto from = static_cast<std::ptrdiff_t>(parts.from);
+  const auto to = static_cast<std::ptrdiff_t>(parts.to);
+  constexpr double nothing = core::Ranks::nothing;
+  std::vector<std::array<double, 2>> of_part(batches.parts(), {nothing, nothing});
 #pragma omp parallel for num_threads(system.bulk.threads) schedule(static)
-  for (std::ptrdiff_t p = 0; p < parts_count; ++p) {
+  for (std::ptrdiff_t p = from; p < to; ++p) {
     const auto part = static_cast<std::size_t>(p);
-    solid::CellEnergy& sum = of_part[part];
+    solid::CellEnergy sum;
     const auto alone = [&](std::size_t cell) {
       const typename BulkTerm<Dim>::Job& job = system.bulk.jobs[cell];
       const solid::CellEnergy e =
@@ -219,11 +222,14 @@ solid::CellEnergy BasicSystem<Dim>::Impl::Explicit::cells_energy(
       }
     }
     for (std::size_t i = others.begin; i < others.end; ++i) alone(batches.others()[i]);
+    of_part[part] = {sum.stored, sum.dissipated};
   }
+  if (system.ranks && !of_part.empty())
+    system.ranks->sum({of_part.front().data(), 2 * of_part.size()});
   solid::CellEnergy sum;
-  for (const solid::CellEnergy& e : of_part) {
-    sum.stored += e.stored;
-    sum.dissipated += e.dissipated;
+  for (const auto& [stored, dissipated] : of_part) {
+    sum.stored += stored;
+    sum.dissipated += dissipated;
   }
   return sum;
 }
@@ -235,6 +241,9 @@ solid::CellEnergy BasicSystem<Dim>::Impl::Explicit::cells_energy(
 ///            give before anything moves
 template <int Dim>
 bool BasicSystem<Dim>::Impl::Explicit::grows(const solve::ExplicitMotion& m) {
+  if (system.ranks &&
+      !system.ranks->agree_on({m.position.data(), static_cast<std::size_t>(m.position.size())}))
+    throw std::runtime_error("the processes have come to different states");
   const double moving = kinetic(m.velocity);
   const double put_in = works.external + works.supports + kinetic_of_held(m.velocity) - held_before;
   const double gain = moving - energy_before + works.internal + works.contact + works.damping -
@@ -283,6 +292,7 @@ template <int Dim>
 void BasicSystem<Dim>::Impl::Explicit::finish(double fraction, double duration,
                                               ExplicitIncrement<State>& out) {
   Rates& rates = now.rates;
+  exchange_memory(now.memory);
   now.fraction = fraction;
   now.u = motion.position.head(now.u.size());
   for (const PrescribedDof* const p : prescribed)
@@ -343,6 +353,7 @@ ExplicitIncrement<BasicState<Dim>> BasicSystem<Dim>::Impl::Explicit::increment(
     }
   } else {
     now.u = motion.position.head(now.u.size());
+    exchange_memory(now.memory);
   }
   out.state = now;
   return out;

@@ -57,6 +57,37 @@ void BasicSystem<Dim>::Impl::Explicit::look_at(std::size_t cell, BulkBlock& bloc
   if (touching[cell]) fastest.beside = std::max(fastest.beside, value);
 }
 
+/// What governed before, by the process that has its cell.
+template <int Dim>
+typename BasicSystem<Dim>::Impl::Explicit::Fastest
+BasicSystem<Dim>::Impl::Explicit::fastest_before() {
+  Fastest found;
+  if (stable.cell < 0) return found;
+  const auto cell = static_cast<std::size_t>(stable.cell);
+  bool here = !system.ranks;
+  for (std::size_t p = parts.from; p < parts.to && !here; ++p)
+    for_each_job(p, [&](std::size_t job) { here = here || job == cell; });
+  typename ForceBatches<Dim>::Stiffness last;
+  if (here) look_at(cell, work.front().block, last, found);
+  return of_all(found);
+}
+
+/// The fastest of all processes'; of equal ones that of the first process.
+template <int Dim>
+typename BasicSystem<Dim>::Impl::Explicit::Fastest BasicSystem<Dim>::Impl::Explicit::of_all(
+    const Fastest& here) const {
+  const core::Ranks* const ranks = system.ranks;
+  if (!ranks) return here;
+  Fastest all = here;
+  all.value = ranks->largest(here.value);
+  all.beside = ranks->largest(here.beside);
+  const bool mine = here.cell >= 0 && here.value == all.value;
+  const double first =
+      -ranks->largest(mine ? -ranks->rank() : -static_cast<double>(ranks->count()));
+  if (first < ranks->count()) ranks->spread({&all.cell, 1}, static_cast<int>(first));
+  return all;
+}
+
 /// Formula    h^2 omega^2 + 2 h B <= 4 , B of the dampers of contacts as omega^2 of their springs:
 /// they
 ///            act on u_n - u_n-1 ,
@@ -68,23 +99,18 @@ template <int Dim>
 void BasicSystem<Dim>::Impl::Explicit::measure_stable_step() {
   // Parts of fixed size, each from what governed before: the bits do not depend on the number of
   // threads.
-  Fastest all;
-  typename ForceBatches<Dim>::Stiffness first;
-  if (stable.cell >= 0)
-    look_at(static_cast<std::size_t>(stable.cell), work.front().block, first, all);
-  std::vector<Fastest> of_part(batches.parts(), all);
-  const auto part_count = static_cast<std::ptrdiff_t>(of_part.size());
+  const Fastest before = fastest_before();
+  std::vector<Fastest> of_part(batches.parts(), before);
+  const auto from = static_cast<std::ptrdiff_t>(parts.from);
+  const auto to = static_cast<std::ptrdiff_t>(parts.to);
 #pragma omp parallel for num_threads(system.bulk.threads) schedule(dynamic)
-  for (std::ptrdiff_t p = 0; p < part_count; ++p) {
+  for (std::ptrdiff_t p = from; p < to; ++p) {
     const auto number = static_cast<std::size_t>(p);
     BulkBlock& block = work[static_cast<std::size_t>(omp_get_thread_num())].block;
     typename ForceBatches<Dim>::Stiffness last;
-    const auto look = [&](std::size_t cell) { look_at(cell, block, last, of_part[number]); };
-    const auto fours = batches.fours(number), others = batches.alone(number);
-    for (std::size_t f = fours.begin; f < fours.end; ++f)
-      for (const std::size_t cell : batches.jobs(f)) look(cell);
-    for (std::size_t i = others.begin; i < others.end; ++i) look(batches.others()[i]);
+    for_each_job(number, [&](std::size_t cell) { look_at(cell, block, last, of_part[number]); });
   }
+  Fastest all = before;
   for (const Fastest& f : of_part) {
     if (f.value > all.value) {
       all.value = f.value;
@@ -92,6 +118,7 @@ void BasicSystem<Dim>::Impl::Explicit::measure_stable_step() {
     }
     all.beside = std::max(all.beside, f.beside);
   }
+  all = of_all(all);
   const double cells = all.value, beside = all.beside;
   stable = {};
   stable.cell = all.cell;

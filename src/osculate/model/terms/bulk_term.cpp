@@ -82,8 +82,9 @@ bool BulkTerm<Dim>::all_added(std::size_t failed, Assembly<Dim>& to, solve::Eval
 }
 
 template <int Dim>
-void BulkTerm<Dim>::exchange_memory(std::vector<double>& memory) const {
-  if (!ranks || memory.empty()) return;
+void BulkTerm<Dim>::exchange_memory(const core::Ranks& among, std::span<const std::size_t> own,
+                                    std::vector<double>& memory) const {
+  if (memory.empty()) return;
   std::vector<double> all(memory.size(), core::Ranks::nothing);
   const auto copy = [&](std::size_t job, const std::vector<double>& from, std::vector<double>& to) {
     const CellMemory& m = jobs[job].memory;
@@ -91,8 +92,8 @@ void BulkTerm<Dim>::exchange_memory(std::vector<double>& memory) const {
     if (!m.removed)
       std::copy_n(from.begin() + begin, static_cast<std::ptrdiff_t>(m.count), to.begin() + begin);
   };
-  for (const std::size_t job : shares.own_cells) copy(job, memory, all);
-  ranks->sum(all);
+  for (const std::size_t job : own) copy(job, memory, all);
+  among.sum(all);
   for (std::size_t job = 0; job < jobs.size(); ++job) copy(job, all, memory);
 }
 

@@ -68,7 +68,8 @@ struct BulkTerm {
   bool add(const State& committed, const State& trial, double duration,
            const CellInertia<Dim>* inertia, Assembly<Dim>& to, solve::Evaluation& out);
   /// After evaluations that were shared: what the points of all cells remember.
-  void exchange_memory(std::vector<double>& memory) const;
+  void exchange_memory(const core::Ranks& among, std::span<const std::size_t> own,
+                       std::vector<double>& memory) const;
   /// What stresses do to the stiffness, of cells of small strain (those of finite strain have it in
   /// their tangent): those of `at`, less those of `less` (null: none).
   ///
