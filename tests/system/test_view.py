@@ -182,7 +182,7 @@ class View(unittest.TestCase):
         self.assertEqual(len(rows), sum(i["iterations"] + i["wasted_iterations"] for i in increments))
 
     def test_a_run_that_was_killed_is_shown_and_its_restart(self):
-        self.write(model(increments=30))
+        self.write(model(increments=30, output="checkpoint: 1,"))
         run = self.run_until(8)
         self.end(run)
         self.view("m.yaml")  # the model stands for its results

@@ -64,6 +64,9 @@ struct Recorder {
   result::JournalEntry entry{};  ///< of the increment that has just converged
   std::string write_error;       ///< why the run had to stop, if a file could not be written
   bool stopping = false;
+  bool kept = false;  ///< this run has left something to go on from
+  /// Of the last increment, until then.
+  std::optional<model::BasicResumePoint<Dim>> not_kept{};
   bool unwanted = false;  ///< who watches wants no more
   Budget budget;
   double resumed = 0;       ///< share of the work that was done before this run
@@ -129,7 +132,7 @@ struct Recorder {
     const std::vector<char>& touched = from.entries.back().touched;
     fields.resume(std::move(files), {touched.begin(), touched.end()});
     open_answers(from.entries.back().answers);
-    if (description.output.checkpoint > 0) checkpoints.emplace(folder, from);
+    if (description.output.checkpoint != 0) checkpoints.emplace(folder, from);
   }
 
   [[nodiscard]] static io::HistoryRow row_of(const model::Progress& p,
@@ -337,16 +340,32 @@ struct Recorder {
       nlohmann::json::to_cbor(report.newest(), entry.frame);
   }
 
-  /// The increment that `converged` has recorded.
-  void save(const model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,
+  /// Where nothing is said, small models do without most: their increments are soon done again, and
+  /// what the linear solver has passes from one to the next.
+  [[nodiscard]] bool is_due(const model::BasicSystem<Dim>& system, const model::Progress& p) const {
+    constexpr Index small = 20'000;
+    constexpr int seldom = 10;
+    if (p.fraction >= 1.0) return true;
+    if (const std::optional<int>& every = description.output.checkpoint)
+      return converged_count % *every == 0 || stopping;
+    const std::vector<model::Step>& steps = built.model.steps;
+    const bool by_increments =
+        steps.empty() || model::iterates(steps[static_cast<std::size_t>(p.step)]);
+    return system.unknowns() >= small || !by_increments || converged_count % seldom == 0;
+  }
+
+  /// The increment that `converged` has recorded. True if its state is in a checkpoint.
+  bool save(const model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,
             const model::Progress& p, const solve::StepPosition& position) {
-    if (!checkpoints || !write_error.empty()) return;
+    if (!checkpoints || !write_error.empty()) return false;
     const auto start = std::chrono::steady_clock::now();
     const model::SystemMemory memory = system.memory();
     entry.touched.assign(fields.touched().begin(), fields.touched().end());
     if (answers) entry.answers = answers->marks();
-    const bool due =
-        converged_count % description.output.checkpoint == 0 || p.fraction >= 1.0 || stopping;
+    const bool due = is_due(system, p);
+    kept = kept || (due && p.increment > 0);
+    not_kept.reset();
+    if (!kept && !due) not_kept = {state, p, position, memory, {}};
     try {
       checkpoints->add(entry, memory);
       if (due) checkpoints->save(state, p, position, memory, watch.memory);
@@ -354,6 +373,18 @@ struct Recorder {
       write_error = error.what();
     }
     seconds += seconds_since(start);
+    return due;
+  }
+
+  /// The run ends early: one that goes on must not begin where this one has.
+  void keep_last() {
+    if (!checkpoints || !not_kept || !write_error.empty()) return;
+    try {
+      checkpoints->save(not_kept->state, not_kept->progress, not_kept->position, not_kept->memory,
+                        watch.memory);
+    } catch (const io::WriteError& error) {
+      write_error = error.what();
+    }
   }
 
   /// Penalties used and penetrations reached.

@@ -119,7 +119,7 @@ model::BasicAnalysisObserver<Dim> observe(Recorder<Dim>& recorder) {
   };
   observer.resumable = [&recorder](const auto& system, const auto& state, const auto& p,
                                    const solve::StepPosition& position) {
-    recorder.save(system, state, p, position);
+    return recorder.save(system, state, p, position);
   };
   return observer;
 }
@@ -133,6 +133,10 @@ model::BasicAnalysisObserver<Dim> answering_alike(const core::Ranks* ranks,
   alike.converged = [ranks, ask = observer.converged](auto& system, const auto& state,
                                                       const auto& p, auto* record) {
     return ranks->all(!ask || ask(system, state, p, record));
+  };
+  alike.resumable = [ranks, ask = observer.resumable](const auto& system, const auto& state,
+                                                      const auto& p, const auto& position) {
+    return ranks->any(ask && ask(system, state, p, position));
   };
   alike.interrupted = [ranks, ask = observer.interrupted] { return ranks->any(ask && ask()); };
   alike.harmonic = [ranks, ask = observer.harmonic](auto& system, const auto& state, const auto& p,
@@ -148,7 +152,8 @@ void introduce(Recorder<Dim>& recorder, const result::RunIdentity& id) {
   for (const result::ModelFact& fact : result::model_facts(recorder.built))
     recorder.say(fmt::format("{:<13} {:<16} {}", fact.heading, fact.name, fact.text));
   for (const std::string& warning : recorder.built.warnings) recorder.say("warning: " + warning);
-  if (recorder.description.output.checkpoint > 0) recorder.checkpoints.emplace(recorder.folder, id);
+  if (recorder.description.output.checkpoint != 0)
+    recorder.checkpoints.emplace(recorder.folder, id);
   recorder.begin_report(recorder.first_report());
 }
 
@@ -216,6 +221,7 @@ RunOutcome lead(const RunOptions& options, Recorder<Dim>& recorder,
     recorder.fields.write_last_iterate(result.last_iterate, *result.failure);
     recorder.report.add_failure(result.last_iterate, *result.failure);
   }
+  if (result.outcome != solve::Outcome::converged) recorder.keep_last();
   RunOutcome outcome = finish(recorder, result, seconds_input);
   if (ranks && is_short_of_memory_alone(result)) throw OneAlone(result.message);
   return outcome;

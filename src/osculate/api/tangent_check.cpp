@@ -274,6 +274,7 @@ Increment<Dim> run_to(const deck::BasicBuilt<Dim>& built, int wanted,
                            const solve::StepPosition& position) {
     found.before = std::move(found.end.state);
     found.end = {state, progress, position, system.memory(), {}};
+    return false;
   };
   const model::BasicAnalysisResult<Dim> result =
       model::run(built.model, built.options, observer, from ? &from->point : nullptr);

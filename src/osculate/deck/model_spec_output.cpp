@@ -194,6 +194,11 @@ BoundKeys<HistoryRequest> request_keys() {
                    .such_as("pull"))}};
 }
 
+std::optional<int> checkpoint_times(const Value& v) {
+  if (v.alternative == 0) return v.code;
+  return v.code == static_cast<int>(FieldTimes::none) ? std::optional(0) : std::nullopt;
+}
+
 BoundKeys<Output> output_keys() {
   using O = Output;
   Spec fields =
@@ -206,10 +211,14 @@ BoundKeys<Output> output_keys() {
           .otherwise("every")
           .such_as("10");
   Spec checkpoint =
-      either("When a checkpoint is written, from which `osculate run --restart` goes on.",
-             {integer("Every n-th increment, and at the end of every step.").at_least(1),
-              choice("A word.", {word("none", FieldTimes::none, "never")})})
-          .otherwise("1")
+      either(
+          "When a checkpoint is written, from which `osculate run --restart` goes on.",
+          {integer("Every n-th increment, and at the end of every step.").at_least(1),
+           choice("A word.", {word("auto", FieldTimes::every,
+                                   "after every increment, after every tenth of a model of fewer "
+                                   "than 20 000 unknowns; and at the end of every step"),
+                              word("none", FieldTimes::none, "never")})})
+          .otherwise("auto")
           .such_as("10");
   return {
       {{optional("fields", std::move(fields)),
@@ -226,7 +235,7 @@ BoundKeys<Output> output_keys() {
                    "contact0_00012.csv: node, place and all contact fields.")
                .otherwise("false")),
        {optional("checkpoint", std::move(checkpoint)),
-        [](O& o, const Value& v) { o.checkpoint = v.alternative == 0 ? v.code : 0; }},
+        [](O& o, const Value& v) { o.checkpoint = checkpoint_times(v); }},
        {optional("plots", list("Diagrams of the report.", plot_keys().spec("One diagram."))
                               .otherwise("[]")
                               .such_as("[{x: time, y: floor.normal_force}]")),

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -104,7 +105,8 @@ struct Output {
   std::vector<HistoryRequest> history;
   bool report = true, compress = true;
   bool contact_points = false;  ///< tables of them beside the fields
-  int checkpoint = 1;           ///< every so many increments; 0: never
+  /// Every so many increments; 0: never; nothing: after each, of small models after each tenth.
+  std::optional<int> checkpoint;
   std::vector<Plot> plots;
   std::vector<AnswerRequest> frd, dat;
   bool as_given = false;  ///< frd: shells and beams as the deck has them

@@ -45,8 +45,9 @@ struct Analysis {
   bool tell(const BasicState<Dim>& state, const solve::IncrementRecord* record) {
     const bool go_on = !observer.converged || observer.converged(system, state, progress, record);
     const bool passes = superposition && record;
-    if (observer.resumable)
-      observer.resumable(system, passes ? superposition->standing : state, progress, position);
+    position.anew =
+        observer.resumable &&
+        observer.resumable(system, passes ? superposition->standing : state, progress, position);
     return go_on;
   }
   /// Steps begin where those that are no motions along vibrations have led to.

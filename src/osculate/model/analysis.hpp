@@ -89,8 +89,9 @@ struct BasicAnalysisObserver {
   std::function<void(const std::string& reason, const Progress&, double to,
                      const std::vector<solve::IterationRecord>&)>
       cutback;
-  /// After `converged`, with what a resume point consists of.
-  std::function<void(const BasicSystem<Dim>&, const BasicState<Dim>&, const Progress&,
+  /// After `converged`, with what a resume point consists of. Return true if it was kept: what
+  /// follows is then what a run that goes on from there finds, to the last bit.
+  std::function<bool(const BasicSystem<Dim>&, const BasicState<Dim>&, const Progress&,
                      const solve::StepPosition&)>
       resumable;
   /// A step with central differences begins, or goes on from a resume point.

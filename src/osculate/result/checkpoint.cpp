@@ -90,11 +90,13 @@ void fields(Archive& a, PathPosition& path) {
 }
 template <class Archive>
 void fields(Archive& a, StepPosition& position) {
-  auto& [nominal, at, size, extrapolation, path, pace] = position;
+  auto& [nominal, at, size, extrapolation, path, pace, anew] = position;
   ExtrapolationMemory memory = extrapolation.memory();
   a(nominal, at, size, memory, path, pace);
-  if constexpr (std::is_same_v<Archive, core::Loader>)
+  if constexpr (std::is_same_v<Archive, core::Loader>) {
     extrapolation = Extrapolation(std::move(memory));
+    anew = true;
+  }
 }
 }  // namespace osculate::solve
 

@@ -194,18 +194,40 @@ class Condensation {
     if constexpr (Condenses<S>)
       if (!guess.resisted && options.residual > 0 && time != given_up_)
         if (std::optional<Result> found =
-                where_it_fits(system, committed, time, options, solver, guess, dropped))
+                where_it_fits(system, committed, time, options, solver, guess, dropped)) {
+          begin_anew();
           return std::move(*found);
-    return solve::newton(system, committed, time, options, solver, guess);
+        }
+    return of_all(system, committed, time, options, solver, guess);
+  }
+
+  /// With all unknowns, and by the factors of the last attempt where that has converged. Coarser
+  /// models of a solver that iterates do not pass from one attempt to the next.
+  Result of_all(S& system, const typename S::State& committed, double time,
+                const NewtonOptions& options, la::LinearSolver& solver, const Guess& guess,
+                const typename S::Trial* warm = nullptr) {
+    if (passes_ && !guess.resisted)
+      former_.pass(options.residual);
+    else
+      former_ = detail::FormerFactors(options.residual);
+    Result result = solve::newton(system, committed, time, options, solver, guess, warm, &former_);
+    passes_ = result.outcome == Outcome::converged && !guess.resisted && former_.serve() &&
+              !solver.asks_for_places();
+    return result;
   }
 
   /// An increment has converged: the few are asked again.
   void accepted() { given_up_ = std::numeric_limits<double>::quiet_NaN(); }
+  /// The solver is, or was, used for something else; or nothing but the state may show in what
+  /// follows.
+  void begin_anew() { passes_ = false; }
 
  private:
   Eigen::Index worth_it_;
   la::Eliminated* rest_ = nullptr;
   bool looked_ = false;  ///< whether it pays in the running step
+  bool passes_ = false;  ///< the solver has the factors that are told of by:
+  detail::FormerFactors former_{0};
   double given_up_ = std::numeric_limits<double>::quiet_NaN();  ///< where the few found no end
   std::vector<Index> few_;
 
@@ -239,6 +261,7 @@ class Condensation {
     Evaluation first;
     system.predict(committed, time, first);
     if (!first.ok) return false;
+    begin_anew();
     rest_ = solver.eliminate(system.matrix(), system.symmetry());
     if (!rest_) return false;
     system.assemble_constant(committed, time);
@@ -286,6 +309,7 @@ class Condensation {
     result.trial = system.apply(result.trial, rest, time, 1.0);
     system.evaluate(committed, result.trial, time, false, result.evaluation);
     if (!ends(options, found.evaluation.residual.norm(), result)) {
+      begin_anew();
       go_on(system, committed, time, options, solver, result);
       if (result.outcome != Outcome::converged && result.outcome != Outcome::stopped) {
         dropped += static_cast<int>(result.iterations.size());

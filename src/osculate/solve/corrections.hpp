@@ -27,7 +27,7 @@ inline NewtonOptions loosened(NewtonOptions options) {
 /// jump.
 template <System S>
 void augment(S& system, const typename S::State& committed, double time,
-             const NewtonOptions& options, la::LinearSolver& solver,
+             const NewtonOptions& options, la::LinearSolver& solver, Condensation<S>& condensation,
              NewtonResult<typename S::Trial>& attempt, bool resisted = false) {
   const bool often = system.augments_often();
   const int most = often ? 200 : 60;
@@ -40,8 +40,8 @@ void augment(S& system, const typename S::State& committed, double time,
     const Guess guess{attempt.total, attempt.first_residual, attempt.first_energy,
                       Prediction::as_before, resisted};
     NewtonResult<typename S::Trial> more =
-        newton(system, committed, time, whole ? options : loosened(options), solver, guess,
-               next ? &*next : &attempt.trial);
+        condensation.of_all(system, committed, time, whole ? options : loosened(options), solver,
+                            guess, next ? &*next : &attempt.trial);
     if (more.outcome != Outcome::converged && more.outcome != Outcome::stopped &&
         system.may_stay()) {
       // before those of the solution that stays: the last record is the converged one
@@ -82,7 +82,7 @@ template <System S>
   NewtonResult<typename S::Trial> attempt =
       condensation.newton(system, committed, time, first, solver, guess, wasted);
   if constexpr (Augments<S>)
-    augment(system, committed, time, options, solver, attempt, guess.resisted);
+    augment(system, committed, time, options, solver, condensation, attempt, guess.resisted);
   refuse(system, committed, attempt);
   return attempt;
 }

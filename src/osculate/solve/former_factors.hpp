@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "osculate/la/nearby.hpp"
@@ -8,34 +9,45 @@
 
 namespace osculate::solve::detail {
 
-/// The factors of a former iteration of the same increment, which solve for further corrections.
-/// Where points have changed their states since, a hundred-millionth of what is out of balance may
-/// be left: the next iteration finds other states anyway. Once two iterations have the same states,
-/// something may have come loose that was held: a solution for noise says whether all is held, and
-/// of symmetric kinds whether the equilibrium is stable. No increment ends before that
-/// (`doubtful`). Not where the energy alone says when iterations end.
+/// The factors of a former iteration, which solve for further corrections, also of the increments
+/// that follow. Where points have changed their states since, a hundred-millionth of what is out of
+/// balance may be left: the next iteration finds other states anyway. Once two iterations have the
+/// same states, something may have come loose that was held: a solution for noise says whether all
+/// is held, and of symmetric kinds whether the equilibrium is stable. No increment ends before that
+/// (`doubtful`), nor does one with factors of an earlier one. Where the energy alone says when
+/// iterations end, factors serve for their own states only.
 ///
 /// Formula    |R + K du| <= a tenth of the residual that ends the iterations, and 1e-8 |R|: where
 ///            the rest of the way is linear it is the last correction, as by factors of its own;
 ///            1e-8 |R| where states have changed
 /// Decision   docs/decisions/059-former-factors.md, 091-noise-instead-of-factors.md,
-///            099-stable-by-conjugate-gradients.md
+///            099-stable-by-conjugate-gradients.md, 101-factors-that-pass-increments.md
 /// Tested by  tests/unit/solve/test_former_factors.cpp
 class FormerFactors {
  public:
   /// `wanted`: relative residual at which the iterations end.
   explicit FormerFactors(double wanted) : wanted_(wanted) {}
+  /// Another attempt begins, which the factors of the last one may serve.
+  void pass(double wanted) {
+    wanted_ = wanted;
+    earlier_ = symmetric_part_serves_ = true;
+    fresh_ = moved_ = false;
+    tried_.reset();
+    failures_ = 0;
+  }
   /// The last correction took a factorisation.
   [[nodiscard]] bool fresh() const { return fresh_; }
-  /// Points have other states than at the last factorisation: what is there of it does not know
-  /// what has come loose.
+  /// Points have other states than at the last factorisation, or it was of an earlier increment:
+  /// what is there of it does not know what has come loose.
   template <class Trial>
   [[nodiscard]] bool changed(const NewtonResult<Trial>& result) const {
-    return result.evaluation.counts.signature != states_;
+    return earlier_ || result.evaluation.counts.signature != states_;
   }
   /// Nothing has been factored yet.
   [[nodiscard]] bool first() const { return first_; }
   void forget() { affordable_ = 0; }
+  /// There are factors that may serve.
+  [[nodiscard]] bool serve() const { return affordable_ > 0; }
   /// Whether factors of the symmetric part of a tangent may stand in for its own.
   [[nodiscard]] bool symmetric_part_serves() const { return symmetric_part_serves_; }
   void refuse_symmetric_part() { symmetric_part_serves_ = false; }
@@ -45,7 +57,7 @@ class FormerFactors {
     positive_ = report.negative_pivots == 0;
     states_ = last_ = counts.signature;
     fresh_ = true;
-    first_ = false;
+    first_ = earlier_ = false;
   }
   /// How much of the residual may be left by a correction of a solver that iterates.
   template <class Trial>
@@ -58,22 +70,24 @@ class FormerFactors {
   bool solve(S& system, la::LinearSolver& solver, const NewtonResult<typename S::Trial>& result,
              const Eigen::VectorXd& residual, Eigen::VectorXd& du) {
     const std::uint64_t states = result.evaluation.counts.signature;
-    const bool changed = states != states_, settled = states == last_;
+    const bool changed = this->changed(result), settled = states == last_;
     moved_ = !first_ && !settled;
     last_ = states;
     constexpr double least = 1e-9;
     constexpr int tries = 2;
     if (affordable_ < 1) return false;
-    if (changed && (failures_ >= tries || wanted_ <= 0)) return false;
+    if (changed && failures_ >= tries) return false;
+    if (states != states_ && wanted_ <= 0) return false;
     if (!fresh_ && settled && !gains(result)) return false;
     // Never at rest; or pivots have to be counted.
     if (changed && (settled ? !can_be_tried(system, result) : wanted(result) >= share))
       return false;
-    const bool moving = changed && !settled;
+    const bool moving = changed && !settled, begins = earlier_ && result.iterations.empty();
     const double tolerance = moving ? most_left : std::clamp(wanted(result), least, most_left);
     la::NearbySolutions by(system.matrix(), system.symmetry(), solver);
     du = -residual;
-    fresh_ = !(moving || resists_all(system, by)) || !by.solve({affordable_, tolerance}, du).solved;
+    fresh_ = !(moving || begins || resists_all(system, by)) ||
+             !by.solve({affordable_, tolerance}, du).solved;
     if (changed && fresh_) ++failures_;
     return !fresh_;
   }
@@ -89,8 +103,7 @@ class FormerFactors {
       if (system.symmetry() != la::Symmetry::unsymmetric && !result.evaluation.saddle &&
           system.at_rest())
         return true;
-    const std::uint64_t now = result.evaluation.counts.signature;
-    return now != states_ && now != tried_;
+    return changed(result) && result.evaluation.counts.signature != tried_;
   }
   /// Whether an increment may end here: a doubtful tangent, which the system has at hand, is tried
   /// by noise, or factored. False: what is not held is for the next iteration to find.
@@ -104,6 +117,7 @@ class FormerFactors {
     const la::FactorReport report = solver.factor(k, system.pattern_version(), system.symmetry());
     forget();
     if (report.status != la::SolveStatus::ok || report.condition > 0) return false;
+    keep(report, k, result.evaluation.counts);
     result.iterations.back().factored = true;
     result.whole_factors = report.whole;
     result.negative_pivots = report.negative_pivots;
@@ -127,7 +141,7 @@ class FormerFactors {
   /// Whether the tangent holds everything, where its states are not those of the factors.
   template <System S>
   bool resists_all(const S& system, la::NearbySolutions& by) {
-    if (last_ == states_ || last_ == tried_) return true;
+    if ((!earlier_ && last_ == states_) || last_ == tried_) return true;
     if (!noise_is_resisted(system, by)) return false;
     tried_ = last_;
     return true;
@@ -149,9 +163,10 @@ class FormerFactors {
   double wanted_;
   int affordable_ = 0;                   ///< iterations; none without factors
   std::uint64_t states_ = 0, last_ = 0;  ///< of the factors, and of the last correction
-  std::uint64_t tried_ = 0;              ///< of a tangent that resists all motions
+  std::optional<std::uint64_t> tried_;   ///< of a tangent that resists all motions
   bool positive_ = true;                 ///< no negative pivots in the factors
   bool fresh_ = true, first_ = true;
+  bool earlier_ = false;  ///< the factors are of an earlier increment
   bool symmetric_part_serves_ = true;
   bool moved_ = false;  ///< points have other states than at the last correction
   int failures_ = 0;    ///< where states had changed

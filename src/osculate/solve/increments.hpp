@@ -48,6 +48,8 @@ struct StepPosition {
   Extrapolation extrapolation;
   PathPosition path;
   TimePace pace{};
+  /// Nothing but this and the state may show in what follows: a later run may go on from here.
+  bool anew = false;
 };
 
 template <class State, class Trial = State>
@@ -168,7 +170,6 @@ struct StepRun {
     result.outcome = Outcome::converged;
     result.reason.clear();
     result.last_attempt = {};
-    condensation.accepted();
     result.state = std::move(committed);
     result.increments.push_back({position.at,
                                  cutbacks,
@@ -181,7 +182,11 @@ struct StepRun {
                                  attempt.precision});
     cutbacks = wasted = 0;
     time_step = {};
-    if (on_increment(result.state, result.increments.back())) return true;
+    position.anew = false;
+    const bool more = on_increment(result.state, result.increments.back());
+    condensation.accepted();
+    if (position.anew) condensation.begin_anew();
+    if (more) return true;
     result.outcome = Outcome::stopped;
     result.reason = "stopped by the user";
     return false;
@@ -341,10 +346,12 @@ void end_path(StepRun<S>& run, PathPoint<typename S::Trial>& point) {
   const Eigen::VectorXd total = share * point.result.total;
   const typename S::Trial near_end = run.system.apply(run.result.state, total, until, 1.0);
   std::vector<IterationRecord> iterations = std::move(point.result.iterations);
-  point.result = newton(run.system, run.result.state, until, run.options.newton, run.solver,
-                        {total, point.result.first_residual, point.result.first_energy}, &near_end);
+  point.result = run.condensation.of_all(
+      run.system, run.result.state, until, run.options.newton, run.solver,
+      {total, point.result.first_residual, point.result.first_energy}, &near_end);
   if constexpr (Augments<S>)
-    augment(run.system, run.result.state, until, run.options.newton, run.solver, point.result);
+    augment(run.system, run.result.state, until, run.options.newton, run.solver, run.condensation,
+            point.result);
   point.result.iterations.insert(point.result.iterations.begin(), iterations.begin(),
                                  iterations.end());
   point.fraction = until;
@@ -380,6 +387,7 @@ bool path_increment(StepRun<S>& run) {
   const ArcLengthOptions& options = run.options.arc_length;
   const double nominal = 1.0 / run.nominal_increments;
   const double size = path.length > 0 ? nominal : position.size;
+  run.condensation.begin_anew();  // corrections of a path have factors of their own
   PathPoint<typename S::Trial> point = follow_path(run.system, run.result.state, position.at, size,
                                                    path, run.options.newton, run.solver);
   const auto found = [&] { return point.result.outcome == Outcome::converged; };

@@ -339,13 +339,15 @@ int allowed(int most, int more, int limit, bool unsound, const NewtonResult<Tria
 /// of `time` applied through the tangent (residual includes K du_prescribed), so the boundary
 /// never moves ahead of the body. The committed state is never written: a failed increment has
 /// nothing to undo. With `warm` the iteration goes on from that trial state, and `guess` has the
-/// sum of the corrections so far and the measures of the first iteration.
+/// sum of the corrections so far and the measures of the first iteration. `kept`: factors that
+/// `solver` may still have, and those of this increment afterwards.
 template <System S>
 [[nodiscard]] NewtonResult<typename S::Trial> newton(S& system, const typename S::State& committed,
                                                      double time, const NewtonOptions& options,
                                                      la::LinearSolver& solver,
                                                      const Guess& guess = {},
-                                                     const typename S::Trial* warm = nullptr) {
+                                                     const typename S::Trial* warm = nullptr,
+                                                     detail::FormerFactors* kept = nullptr) {
   NewtonResult<typename S::Trial> result;
   detail::Judge judge{options, time};
   detail::begin(system, committed, time, guess, warm, judge, result);
@@ -356,7 +358,8 @@ template <System S>
   detail::Resistance<S> resistance(system, guess.resisted);
   judge.patient = resistance.on();
   detail::Peeling<S> peeling;
-  detail::FormerFactors former(options.residual);
+  detail::FormerFactors own(options.residual);
+  detail::FormerFactors& former = kept ? *kept : own;
   int most = (resistance.on() ? 2 : 1) * options.max_iterations;
   const int more = options.max_iterations / 2, limit = 4 * most;
   for (int i = 1; i <= most + peeling.iterations(); ++i) {
@@ -390,7 +393,7 @@ template <System S>
     if (peeling.turns(system, committed, time, ended, result))
       judge.begin_again();
     else if (ended) {
-      look_at_stability(system, committed, time, solver, result);
+      if (look_at_stability(system, committed, time, solver, result)) former.forget();
       return result;
     }
     if (i == most + peeling.iterations())

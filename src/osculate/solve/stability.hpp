@@ -20,20 +20,22 @@ concept KnowsRest = Resists<S> && requires(const S s) {
 /// Decision   docs/decisions/081-unstable-equilibria.md
 /// Tested by  tests/unit/solve/test_stability.cpp
 template <System S>
-void look_at_stability(S& system, const typename S::State& committed, double time,
+bool look_at_stability(S& system, const typename S::State& committed, double time,
                        la::LinearSolver& solver, NewtonResult<typename S::Trial>& result) {
   if constexpr (KnowsRest<S>) {
     constexpr double round_off = 1e-12;
     if (result.negative_pivots == 0 || !system.at_rest() || result.evaluation.saddle ||
         system.symmetry() == la::Symmetry::unsymmetric)
-      return;
+      return false;
     system.resist(round_off);
     system.evaluate(committed, result.trial, time, true, result.evaluation);
     const la::FactorReport report =
         solver.factor(system.matrix(), system.pattern_version(), system.symmetry());
     system.resist(0);
     result.precision.unstable = report.status == la::SolveStatus::ok ? report.negative_pivots : 0;
+    return true;
   }
+  return false;
 }
 
 }  // namespace osculate::solve

@@ -14,188 +14,13 @@
 #include "osculate/deck/parse.hpp"
 #include "osculate/io/csv.hpp"
 #include "osculate/result/checkpoint.hpp"
+#include "restart_models.hpp"
 
 namespace osculate::api {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr const char* plane =
-    "osculate: 1\n"
-    "mesh: {generate: {block: {box: {x: [0, 2], y: [0, 1], elements: [12, 6]}}, rail: {line: "
-    "{points: [[-1, 0], [3, 0]], elements: 7}}}}\n"
-    "materials: {m: {st_venant_kirchhoff: {E: 100, nu: 0.3}}}\n"
-    "sections: [{on: block, material: m, element: plane_strain}]\n"
-    "rigid: {base: {set: rail}}\n"
-    "contact: [{name: floor, master: base, slave: block.bottom, normal: {penalty: 1e4}, friction: "
-    "{coulomb: {mu: 0.3, penalty: 1e4}}}]\n"
-    "steps:\n"
-    "  - {name: press, increments: 2, prescribe: [{on: block.top, ux: 0, uy: -0.02}]}\n"
-    "  - {name: drag, increments: 8, prescribe: [{on: block.top, ux: 0.1}]}\n"
-    "output: {history: [{on: floor, of: normal_force}, {on: floor, of: shear_force}]}\n";
-
-constexpr const char* space =
-    "osculate: 1\n"
-    "mesh: {generate: {b: {box: {x: [0, 2], y: [0, 1], z: [0, 1], elements: [6, 3, 3]}}}}\n"
-    "materials: {m: {linear_elastic: {E: 100, nu: 0.25}}}\n"
-    "sections: [{on: b, material: m, element: solid}]\n"
-    "rigid: {floor: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}}}\n"
-    "contact: [{name: c, master: floor, slave: b.bottom, normal: {penalty: 1000}, friction: "
-    "{coulomb: {mu: 0.3, penalty: 500}}}]\n"
-    "steps:\n"
-    "  - {name: press, increments: 2, prescribe: [{on: b.top, ux: 0, uy: 0, uz: -0.02}]}\n"
-    "  - {name: drag, increments: 4, prescribe: [{on: b.top, ux: 0.03, uy: 0.04}]}\n"
-    "output: {history: [{on: c, of: normal_force}, {on: c, of: force_x}]}\n";
-
-/// A disc that is thrown on a block whose base is shaken; time steps by their errors, after another
-/// step with inertia.
-constexpr const char* thrown =
-    "osculate: 1\n"
-    "mesh: {generate: {block: {box: {x: [-2, 2], y: [-1, 0], elements: [4, 2]}}}}\n"
-    "materials: {m: {neo_hooke: {E: 1000, nu: 0.3, density: 0.5}}}\n"
-    "sections: [{on: block, material: m, element: plane_strain}]\n"
-    "rigid: {disc: {circle: {center: [0.3, 1.03], radius: 1}, mass: 2}}\n"
-    "contact: [{name: c, master: disc, slave: block.top, normal: {penalty: 900}, friction: "
-    "{coulomb: {mu: 0.4, penalty: 700}}}]\n"
-    "initial_velocity: [{on: disc, vx: 0.3, vy: -1, wz: 2}]\n"
-    "amplitudes: {shake: [[0, 0], [0.23, 1], [0.4, 0], [1, 0]]}\n"
-    "steps:\n"
-    "  - {name: fly, increments: 2, duration: 0.01, dynamics: {}, prescribe: [{on: block.bottom, "
-    "ux: "
-    "0, uy: 0}]}\n"
-    "  - {name: hit, increments: 3, duration: 0.1, gravity: [0, -9.81], dynamics: {damping: {mass: "
-    "0.3}, time_steps: {error: 0.02}}, prescribe: [{on: block.bottom, ux: 0.01, uy: 0, amplitude: "
-    "shake}]}\n"
-    "output: {history: [{on: c, of: normal_force}, {on: disc, of: vy}], checkpoint: 1}\n";
-
-/// A linear block of many unknowns, of which few are iterated on.
-constexpr const char* linear =
-    "osculate: 1\n"
-    "mesh: {generate: {block: {box: {x: [0, 2], y: [0, 1], elements: [60, 30]}}, rail: {line: "
-    "{points: [[-1, 0], [3, 0]], elements: 7}}}}\n"
-    "materials: {m: {linear_elastic: {E: 100, nu: 0.3}}}\n"
-    "sections: [{on: block, material: m, element: plane_strain}]\n"
-    "rigid: {base: {set: rail}}\n"
-    "contact: [{name: floor, master: base, slave: block.bottom, normal: {penalty: 1e4}, friction: "
-    "{coulomb: {mu: 0.3, penalty: 1e4}}}]\n"
-    "steps:\n"
-    "  - {name: press, increments: 2, prescribe: [{on: block.top, ux: 0, uy: -0.02}]}\n"
-    "  - {name: drag, increments: 4, prescribe: [{on: block.top, ux: 0.01}]}\n"
-    "output: {history: [{on: floor, of: normal_force}, {on: floor, of: shear_force}]}\n";
-
-/// A plastic block that is bent over a rail and back, small and finite strains side by side.
-constexpr const char* plastic =
-    "osculate: 1\n"
-    "mesh: {generate: {b: {box: {x: [0, 4], y: [0, 1], elements: [8, 2]}}, c: {box: {x: [0, 4], y: "
-    "[2, 3], elements: [8, 2]}}}}\n"
-    "materials: {m: {elastoplastic: {E: 200, nu: 0.3, hardening: [[1, 0], [1.2, 0.02]], kinematic: "
-    "5}}}\n"
-    "sections: [{on: b, material: m, element: plane_strain, kinematics: finite}, {on: c, material: "
-    "m, element: plane_stress}]\n"
-    "rigid: {rail: {circle: {center: [2, -1], radius: 1}}}\n"
-    "contact: [{name: on, master: rail, slave: b.bottom, friction: {coulomb: {mu: 0.2}}}]\n"
-    "steps:\n"
-    "  - {name: bend, increments: 4, prescribe: [{on: rail, ux: 0, uy: 0.2, rz: 0}, {on: [b.left, "
-    "b.right, c.left], ux: 0, uy: 0}, {on: c.right, ux: 0.05, uy: 0.2}]}\n"
-    "  - {name: back, increments: 3, prescribe: [{on: rail, uy: 0.05}, {on: c.right, uy: 0}]}\n"
-    "output: {history: [{on: on, of: normal_force}, {on: c.right, of: rfy}]}\n";
-
-/// A creeping block that is dragged over a floor whose friction ages.
-constexpr const char* creeping =
-    "osculate: 1\n"
-    "mesh: {generate: {b: {box: {x: [0, 4], y: [0, 1], elements: [4, 2]}}}}\n"
-    "materials: {m: {norton: {E: 200, nu: 0.3, A: 0.1, n: 3}}}\n"
-    "sections: [{on: b, material: m, element: plane_strain}]\n"
-    "rigid: {floor: {line: {point: [0, 0], normal: [0, 1]}}}\n"
-    "contact: [{name: on, master: floor, slave: b.bottom, normal: {penalty: 1000}, friction: "
-    "{rate_and_state: {mu: 0.5, a: 0.01, b: 0.015, speed: 0.1, distance: 0.02, penalty: 1000}}}]\n"
-    "steps:\n"
-    "  - {name: press, increments: 2, duration: 1, prescribe: [{on: b.top, ux: 0, uy: -0.01}]}\n"
-    "  - {name: drag, increments: 5, duration: 1, prescribe: [{on: b.top, ux: 0.1}]}\n"
-    "output: {history: [{on: on, of: normal_force}, {on: on, of: shear_force}]}\n";
-
-/// A bar that is stretched, and then moves along its vibrations in two steps.
-constexpr const char* ringing =
-    "osculate: 1\n"
-    "mesh: {generate: {b: {box: {x: [0, 4], y: [0, 1], elements: [8, 2]}}}}\n"
-    "materials: {m: {st_venant_kirchhoff: {E: 100, nu: 0.3, density: 1}}}\n"
-    "sections: [{on: b, material: m, element: plane_strain}]\n"
-    "amplitudes: {bent: [[0, 1], [0.3, 0], [1, 2]]}\n"
-    "steps:\n"
-    "  - {name: stretch, increments: 2, prescribe: [{on: b.left, ux: 0, uy: 0}], total_force: "
-    "[{on: "
-    "b.right, fx: 1}]}\n"
-    "  - {name: free, modes: 3}\n"
-    "  - {name: ring, increments: 3, duration: 2, modal: {damping: {ratio: 0.02}}, total_force: "
-    "[{on: "
-    "b.right, fy: 0.1, amplitude: bent}]}\n"
-    "  - {name: on, increments: 2, duration: 1, modal: {}}\n"
-    "output: {history: [{on: b.right, of: uy}, {on: b.right, of: vy}, {on: b.left, of: rfy}]}\n";
-
-/// A bar that swings with loads and with its support, at some frequencies.
-constexpr const char* swinging =
-    "osculate: 1\n"
-    "mesh: {generate: {b: {box: {x: [0, 4], y: [0, 1], elements: [8, 2]}}}}\n"
-    "materials: {m: {linear_elastic: {E: 100, nu: 0.3, density: 1}}}\n"
-    "sections: [{on: b, material: m, element: plane_strain}]\n"
-    "steps:\n"
-    "  - {name: hold, increments: 1, prescribe: [{on: b.left, ux: 0, uy: 0}]}\n"
-    "  - {name: free, modes: 3}\n"
-    "  - {name: swing, harmonic: {from: 0.1, to: 0.7, points: 3, damping: {ratio: 0.02}}, "
-    "total_force: [{on: b.right, fy: 0.1, phase: 30}], prescribe: [{on: b.left, ux: 0.1}]}\n"
-    "  - {name: on, harmonic: {from: 0.2, to: 0.2}, total_force: [{on: b.right, fx: 1}]}\n"
-    "output: {history: [{on: b.right, of: uy}, {on: b.right, of: vy}, {on: b.left, of: rfy}]}\n";
-
-/// Runs that end with warnings of what was on the way: a beam that is bent and straightened again,
-/// a block that moves away from a floor that was nearest at first, a body that goes past its slave,
-/// blocks that go through a floor and that gain energy in explicit time integration.
-constexpr const char* bent =
-    "osculate: 1\n"
-    "mesh: {generate: {b: {box: {x: [0, 10], y: [0, 1], elements: [10, 1]}}}}\n"
-    "materials: {m: {linear_elastic: {E: 100, nu: 0.3}}}\n"
-    "sections: [{on: b, material: m, element: plane_stress, formulation: full}]\n"
-    "steps:\n"
-    "  - {name: bend, increments: 2, prescribe: [{on: b.left, ux: 0, uy: 0}, {on: b.right, uy: "
-    "-4}]}\n"
-    "  - {name: back, increments: 2, prescribe: [{on: b.right, uy: 0}]}\n";
-constexpr const char* leaving =
-    "osculate: 1\n"
-    "mesh: {generate: {b: {box: {x: [0, 2], y: [0, 1], elements: [2, 2]}}}}\n"
-    "materials: {m: {linear_elastic: {E: 100, nu: 0}}}\n"
-    "sections: [{on: b, material: m, element: plane_strain}]\n"
-    "rigid: {floor: {line: {point: [0, -0.01], normal: [0, 1]}}}\n"
-    "contact: [{name: c, master: floor, slave: b.bottom}]\n"
-    "steps: [{name: s, increments: 2, prescribe: [{on: b.top, ux: 0, uy: 0.02}]}]\n";
-constexpr const char* beside =
-    "osculate: 1\n"
-    "mesh: {generate: {b: {box: {x: [0, 10], y: [0, 10], elements: [8, 8]}}}}\n"
-    "materials: {m: {neo_hooke: {E: 3, nu: 0.45}}}\n"
-    "sections: [{on: b, material: m, element: plane_strain, formulation: bbar}]\n"
-    "rigid: {low: {line: {point: [0, 0], normal: [0, 1]}}, up: {line: {point: [0, 10], normal: "
-    "[0, -1]}}}\n"
-    "contact: [{name: l, master: low, slave: b.bottom, friction: {coulomb: {mu: 0.5}}}, {name: u, "
-    "master: up, slave: b.top, friction: {coulomb: {mu: 0.5}}}]\n"
-    "steps: [{name: s, increments: 12, prescribe: [{on: low, ux: 0, uy: 0, rz: 0}, {on: up, ux: 0, "
-    "uy: -4.2, rz: 0}]}]\n";
-constexpr const char* bouncing =
-    "osculate: 1\n"
-    "mesh: {generate: {cells: {box: {x: [0, 2], y: [0.04, 1], elements: [1, 1]}}}}\n"
-    "rigid: {block: {set: cells, mass: 2, inertia: 1.5}, floor: {line: {point: [0, 0], normal: [0, "
-    "1]}}}\n"
-    "contact: [{name: c, master: floor, slave: cells.bottom, weight: node, normal: {table: [[0, 0],"
-    " [0.001, 0.1], [0.002, 10]]}}]\n"
-    "initial_velocity: [{on: block, vy: -1}]\n"
-    "steps: [{name: fall, increments: 3, duration: 0.3, dynamics: {scheme: "
-    "central_differences}}]\n";
-constexpr const char* falling =
-    "osculate: 1\n"
-    "mesh: {generate: {b: {box: {x: [-1, 1], y: [0.01, 1], elements: [8, 4]}}}}\n"
-    "materials: {m: {neo_hooke: {E: 2.0e3, nu: 0.4, density: 1}}}\n"
-    "sections: [{on: b, material: m, element: plane_strain}]\n"
-    "rigid: {floor: {line: {point: [0, 0], normal: [0, 1]}}}\n"
-    "contact: [{name: c, master: floor, slave: b.bottom, search: {depth: 1.0e-4}}]\n"
-    "initial_velocity: [{on: b, vy: -6}]\n"
-    "steps: [{name: fall, increments: 6, duration: 0.006, dynamics: {scheme: "
-    "central_differences}}]\n";
+using namespace restarted;  // NOLINT: the models, nothing else
 
 class Restart : public ::testing::Test {
  protected:
@@ -205,16 +30,23 @@ class Restart : public ::testing::Test {
   void SetUp() override {
     fs::remove_all(folder_);
     fs::create_directories(folder_);
-    std::ofstream(folder_ / "plane.yaml") << plane;
-    std::ofstream(folder_ / "space.yaml") << space;
-    std::ofstream(folder_ / "thrown.yaml") << thrown;
-    std::ofstream(folder_ / "linear.yaml") << linear;
-    std::ofstream(folder_ / "plastic.yaml") << plastic;
-    std::ofstream(folder_ / "creeping.yaml") << creeping;
-    std::ofstream(folder_ / "ringing.yaml") << ringing;
-    std::ofstream(folder_ / "swinging.yaml") << swinging;
+    write("plane", plane);
+    write("space", space);
+    write("thrown", thrown);
+    write("linear", linear);
+    write("plastic", plastic);
+    write("creeping", creeping);
+    write("ringing", ringing);
+    write("swinging", swinging);
   }
   void TearDown() override { fs::remove_all(folder_); }
+  /// With a checkpoint after each increment.
+  void write(const std::string& name, const std::string& text) const {
+    const bool said = text.find("output:") != std::string::npos;
+    std::ofstream(folder_ / (name + ".yaml")) << text << (said ? "" : "output: {}\n");
+    if (text.find("checkpoint") == std::string::npos)
+      replace(name + ".yaml", "output: {", "output: {checkpoint: 1, ");
+  }
   [[nodiscard]] RunOptions options(const std::string& model, const std::string& out,
                                    int threads = 1) const {
     RunOptions o;
@@ -256,7 +88,7 @@ TEST_F(Restart, TheWarningsAreThoseOfTheWholeRun) {
       {"falling", {falling, {"went through the master"}}}};
   for (const auto& [name, model] : models) {
     SCOPED_TRACE(name);
-    std::ofstream(folder_ / (name + ".yaml")) << model.first;
+    write(name, model.first);
     std::vector<std::string> all, of_part, on_the_way;
     RunOptions o = options(name, name + "_whole");
     o.say = [&](std::string_view line) {
@@ -350,9 +182,11 @@ TEST_F(Restart, TheTimeOfStepsWithInertiaIsThatOfTheClock) {
 }
 
 TEST_F(Restart, OnAPathThatTurnsBack) {
-  const std::string model = OSCULATE_SOURCE_DIR "/verification/snap_through/roller.yaml";
-  RunOptions whole = options("plane", "whole"), o = options("plane", "pieces");
-  whole.model = o.model = model;
+  std::ostringstream roller;
+  roller << std::ifstream(OSCULATE_SOURCE_DIR "/verification/snap_through/roller.yaml").rdbuf();
+  write("roller", roller.str());
+  const RunOptions whole = options("roller", "whole");
+  RunOptions o = options("roller", "pieces");
   ASSERT_EQ(run(whole).status, RunStatus::done);
   int increments = 0, runs = 0;
   o.interrupted = [&] { return ++increments % 8 == 0; };
@@ -365,8 +199,46 @@ TEST_F(Restart, OnAPathThatTurnsBack) {
   EXPECT_NE(results("whole")["summary.json"].find("\"on_path\":true"), std::string::npos);
 }
 
+/// Factors pass from one increment to the next between checkpoints, and not past one.
+TEST_F(Restart, OfASmallModelGoesOnAfterEachTenthIncrement) {
+  replace("plane.yaml", "checkpoint: 1, ", "");
+  replace("plane.yaml", "increments: 8", "increments: 24");
+  RunOptions o = options("plane", "pieces");
+  int asked = 0;
+  o.interrupted = [&] { return ++asked == 16; };
+  std::vector<std::string> restarts;
+  o.say = [&](std::string_view text) {
+    if (text.starts_with("restart after")) restarts.emplace_back(text);
+  };
+  EXPECT_EQ(run(o).status, RunStatus::stopped);
+  o.restart = true;
+  EXPECT_EQ(run(o).status, RunStatus::done);
+  ASSERT_EQ(restarts.size(), 1U);
+  EXPECT_TRUE(restarts[0].starts_with("restart after increment 8 of step 'drag'")) << restarts[0];
+  ASSERT_EQ(run(options("plane", "whole")).status, RunStatus::done);
+  EXPECT_EQ(results("pieces"), results("whole"));
+}
+
+/// Each part of a run that is stopped again and again gets on, whether it is stopped after an
+/// increment or within one.
+TEST_F(Restart, OfASmallModelGoesOnWhereItWasStoppedBeforeTheTenthIncrement) {
+  replace("plane.yaml", "checkpoint: 1, ", "");
+  for (const bool within : {false, true}) {
+    SCOPED_TRACE(within);
+    RunOptions o = options("plane", within ? "within" : "after");
+    if (within)
+      o.max_iterations = 11;
+    else
+      o.interrupted = [] { return true; };
+    int runs = 1;
+    for (; run(o).status != RunStatus::done && runs < 50; ++runs) o.restart = true;
+    EXPECT_GE(runs, within ? 3 : 10);
+    EXPECT_LT(runs, 50);
+  }
+}
+
 TEST_F(Restart, NothingIsCutBeforeTheAnalysisStandsWhereItGoesOn) {
-  replace("plane.yaml", "output: {", "output: {checkpoint: 5, ");
+  replace("plane.yaml", "checkpoint: 1", "checkpoint: 5");
   RunOptions o = options("plane", "out");
   int lines = 0;
   o.progress = [&](std::string_view) {

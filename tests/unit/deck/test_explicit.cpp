@@ -236,6 +236,7 @@ TEST(ExplicitImpact, GoesOnFromTheMiddleWithTheSameBits) {
                            const model::Progress& p, const solve::StepPosition& position) {
     if (p.increment == 3)
       middle = model::ResumePoint{state, p, position, system.memory(), {{"hit", {}}}};
+    return p.increment == 3;
   };
   const model::AnalysisResult whole = model::run(built.model, {}, observer);
   ASSERT_TRUE(middle.has_value());

@@ -153,6 +153,7 @@ TEST(MassScaling, HasTheSameBitsWithThreadsAndAfterARestart) {
                            const model::Progress& p, const solve::StepPosition& position) {
     if (p.increment == 2)
       middle = model::ResumePoint{state, p, position, system.memory(), {{"fly", {}}}};
+    return p.increment == 2;
   };
   const model::AnalysisResult whole = model::run(built.model, {}, observer);
   ASSERT_TRUE(middle.has_value());

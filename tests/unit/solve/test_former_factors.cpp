@@ -159,7 +159,7 @@ TEST(FormerFactors, EndAnIncrementAtRestWhereNoiseSaysThatItIsStable) {
 }
 
 /// The last spring loses its stiffness as the first one is pulled, and is in balance where it is.
-NewtonResult<ToySystem::Trial> column(double softening) {
+RestingSystem column_of(double softening) {
   RestingSystem system{springs()};
   const auto before = system.force;
   const auto stiffness = system.stiffness;
@@ -184,6 +184,11 @@ NewtonResult<ToySystem::Trial> column(double softening) {
     k(0, last) = k(last, 0) = -softening * x[last];
     return k;
   };
+  return system;
+}
+
+NewtonResult<ToySystem::Trial> column(double softening) {
+  RestingSystem system = column_of(softening);
   la::Mumps mumps;
   return newton(system, ToySystem::State{Eigen::VectorXd::Zero(size)}, 1.0, {}, mumps);
 }
@@ -222,6 +227,122 @@ TEST(FormerFactors, BeginAnewWithEveryIncrement) {
   EXPECT_TRUE(again.iterations.front().factored);
   EXPECT_EQ(again.trial.x, first.trial.x);
   EXPECT_EQ(again.trial.x, alone.trial.x);
+}
+
+template <class S>
+StepResult<ToySystem::State, ToySystem::Trial> increments(
+    S& system, int count, const std::function<bool(int, const ToySystem::State&)>& anew,
+    StepPosition& position, const ToySystem::State& start = {Eigen::VectorXd::Zero(size)}) {
+  la::Mumps mumps;
+  IncrementOptions options;
+  options.newton.predictor = Predictor::tangent;
+  options.max_cutbacks = 0;
+  return run_step(
+      system, start, count, options, mumps,
+      IncrementObserver<ToySystem::State>([&](const auto& state, const auto&) {
+        position.anew = anew(position.nominal + 1, state);
+        return true;
+      }),
+      [](const auto&...) {}, position);
+}
+
+const auto never = [](int, const ToySystem::State&) { return false; };
+
+std::ptrdiff_t factorisations(const StepResult<ToySystem::State, ToySystem::Trial>& of) {
+  std::ptrdiff_t sum = 0;
+  for (const IncrementRecord& i : of.increments) sum += count_factorisations(i.iterations).whole;
+  return sum;
+}
+
+TEST(FormerFactors, PassFromOneIncrementToTheNext) {
+  ToySystem system = springs();
+  StepPosition one, each;
+  const auto passed = increments(system, 4, never, one);
+  const auto anew = increments(
+      system, 4, [](int, const auto&) { return true; }, each);
+  ASSERT_EQ(passed.outcome, Outcome::converged) << passed.reason;
+  EXPECT_EQ(factorisations(passed), 1);
+  EXPECT_EQ(factorisations(anew), 4);
+  EXPECT_LT((passed.state.x - anew.state.x).norm(), 1e-9 * anew.state.x.norm());
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_EQ(passed.increments[i].iterations.size(), anew.increments[i].iterations.size());
+}
+
+// Who goes on from there has a solver without factors.
+TEST(FormerFactors, DoNotPassWhereALaterRunMayGoOn) {
+  ToySystem system = springs();
+  StepPosition whole, rest;
+  ToySystem::State middle;
+  const auto all = increments(
+      system, 4,
+      [&](int n, const ToySystem::State& state) {
+        if (n != 2) return false;
+        middle = state;
+        rest = whole;
+        return true;
+      },
+      whole);
+  const auto later = increments(system, 4, never, rest, middle);
+  EXPECT_EQ(factorisations(all), 2);
+  EXPECT_EQ(later.increments.size(), 2U);
+  EXPECT_EQ(later.state.x, all.state.x);
+}
+
+// States are the same before and after; noise says that nothing holds the springs any more.
+TEST(FormerFactors, OfAnEarlierIncrementEndNothingThatHasComeLoose) {
+  for (const bool loose : {false, true}) {
+    SCOPED_TRACE(loose);
+    double held = 1;
+    ToySystem system = springs();
+    Eigen::MatrixXd k = Eigen::MatrixXd::Constant(size, size, -1.0 / size);
+    k.diagonal().array() += 1;
+    Eigen::VectorXd load = Eigen::VectorXd::LinSpaced(size, -0.4, 0.4);
+    load[0] = 0;
+    load.array() -= load.mean();
+    system.force = [&](const Eigen::VectorXd& x, double t) -> Eigen::VectorXd {
+      Eigen::VectorXd f = k * x - t * load;
+      f[0] += held * x[0];
+      return f;
+    };
+    system.stiffness = [&](const Eigen::VectorXd&) {
+      Eigen::MatrixXd tangent = k;
+      tangent(0, 0) += held;
+      return tangent;
+    };
+    StepPosition position;
+    const auto result = increments(
+        system, 2,
+        [&](int, const auto&) {
+          if (loose) held = 0;
+          return false;
+        },
+        position);
+    EXPECT_EQ(result.increments.size(), loose ? 1U : 2U);
+    EXPECT_EQ(result.outcome, loose ? Outcome::numerical_failure : Outcome::converged);
+    if (!loose) {
+      EXPECT_EQ(factorisations(result), 1);
+    }
+  }
+}
+
+// Pivots are those of the end of each increment.
+TEST(FormerFactors, OfAnEarlierIncrementEndNoneThatIsUnstable) {
+  const double critical = 1 / column(0).trial.x[0];
+  for (const double share : {0.9, 1.001, 1.5}) {
+    SCOPED_TRACE(share);
+    RestingSystem system = column_of(share * critical);
+    la::Mumps mumps;
+    Condensation<RestingSystem> passing;
+    const ToySystem::State start{Eigen::VectorXd::Zero(size)};
+    const auto first = passing.of_all(system, start, 0.5, {}, mumps, {});
+    ASSERT_EQ(first.outcome, Outcome::converged) << first.reason;
+    EXPECT_EQ(first.negative_pivots, 0);
+    const auto second = passing.of_all(system, first.trial, 1.0, {}, mumps, {});
+    ASSERT_EQ(second.outcome, Outcome::converged) << second.reason;
+    EXPECT_FALSE(second.iterations.front().factored);
+    EXPECT_EQ(second.negative_pivots, share > 1 ? 1 : 0);
+    EXPECT_EQ(second.iterations.back().factored, share > 1);
+  }
 }
 
 }  // namespace
