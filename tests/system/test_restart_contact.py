@@ -119,7 +119,7 @@ class RestartOfContact(RestartCase):
             self.assertIn("restart after increment", text)
 
     def expect_the_same_in_parts(self, model, contact, share):
-        self.write(model.replace("CONTACT", contact))
+        self.write(model.replace("CONTACT", contact).replace("output: {", "output: {checkpoint: 1, "))
         self.run_to_end("whole")
         with open(self.path("whole", "summary.json")) as file:
             summary = json.load(file)

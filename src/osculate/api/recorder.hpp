@@ -376,7 +376,7 @@ struct Recorder {
     return due;
   }
 
-  /// The run ends early: one that goes on must not begin where this one has.
+  /// A run that went on ends early: one that goes on from it must not begin where it has.
   void keep_last() {
     if (!checkpoints || !not_kept || !write_error.empty()) return;
     try {

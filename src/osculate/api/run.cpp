@@ -221,7 +221,7 @@ RunOutcome lead(const RunOptions& options, Recorder<Dim>& recorder,
     recorder.fields.write_last_iterate(result.last_iterate, *result.failure);
     recorder.report.add_failure(result.last_iterate, *result.failure);
   }
-  if (result.outcome != solve::Outcome::converged) recorder.keep_last();
+  if (options.restart && result.outcome != solve::Outcome::converged) recorder.keep_last();
   RunOutcome outcome = finish(recorder, result, seconds_input);
   if (ranks && is_short_of_memory_alone(result)) throw OneAlone(result.message);
   return outcome;
