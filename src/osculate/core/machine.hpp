@@ -8,7 +8,7 @@ namespace osculate::core {
 
 /// The sum over the processes of this machine, of which each has a value and a mark.
 ///
-/// Tested by  tests/unit/la/test_machines.cpp
+/// Tested by  tests/unit/core/test_machine.cpp
 [[nodiscard]] double sum_on_machine(const Ranks& ranks, double value, double mark);
 
 }  // namespace osculate::core

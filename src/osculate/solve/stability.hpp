@@ -17,6 +17,7 @@ concept KnowsRest = Resists<S> && requires(const S s) {
 /// Limits     an unsymmetric tangent or one with multipliers has pivots that say nothing of this,
 ///            and is not looked at; nor is a state on a path (arc length), which is free to be
 ///            unstable
+/// Returns    whether it has factored: the solver has other factors then
 /// Decision   docs/decisions/081-unstable-equilibria.md
 /// Tested by  tests/unit/solve/test_stability.cpp
 template <System S>
