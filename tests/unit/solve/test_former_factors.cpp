@@ -91,16 +91,27 @@ TEST(FormerFactors, EndAnIncrementWhereNoiseSaysThatAllIsHeld) {
   EXPECT_LE(result.iterations.back().residual, NewtonOptions{}.residual);
 }
 
+/// Springs that hold each other, and nothing else.
+Eigen::MatrixXd loose_springs() {
+  Eigen::MatrixXd k = Eigen::MatrixXd::Constant(size, size, -1.0 / size);
+  k.diagonal().array() += 1;
+  return k;
+}
+/// Loads that balance each other.
+Eigen::VectorXd balanced_load() {
+  Eigen::VectorXd load = Eigen::VectorXd::LinSpaced(size, -0.4, 0.4);
+  load[0] = 0;
+  load.array() -= load.mean();
+  return load;
+}
+
 /// Springs between neighbours, of which the first one is held by a point until it comes loose in
 /// the second evaluation. The loads balance each other with and without it, so that there is a
 /// solution that a solver can find.
 NewtonResult<ToySystem::Trial> come_loose(bool loose, int changes) {
   ToySystem system = springs();
-  Eigen::MatrixXd k = Eigen::MatrixXd::Constant(size, size, -1.0 / size);
-  k.diagonal().array() += 1;
-  Eigen::VectorXd load = Eigen::VectorXd::LinSpaced(size, -0.4, 0.4);
-  load[0] = 0;
-  load.array() -= load.mean();
+  const Eigen::MatrixXd k = loose_springs();
+  const Eigen::VectorXd load = balanced_load();
   int calls = 0;
   const auto hold = [&calls, loose] { return loose && calls > 1 ? 0.0 : 1.0; };
   const auto cubes = [](const Eigen::VectorXd& x) {
@@ -116,8 +127,7 @@ NewtonResult<ToySystem::Trial> come_loose(bool loose, int changes) {
     return f;
   };
   system.stiffness = [=](const Eigen::VectorXd& x) -> Eigen::MatrixXd {
-    Eigen::MatrixXd centre = Eigen::MatrixXd::Constant(size, size, -1.0 / size);
-    centre.diagonal().array() += 1;
+    const Eigen::MatrixXd centre = loose_springs();
     const Eigen::VectorXd slope = 3 * (x.array() - x.mean()).square();
     Eigen::MatrixXd tangent = k + centre * slope.asDiagonal() * centre;
     tangent(0, 0) += hold();
@@ -294,11 +304,8 @@ TEST(FormerFactors, OfAnEarlierIncrementEndNothingThatHasComeLoose) {
     SCOPED_TRACE(loose);
     double held = 1;
     ToySystem system = springs();
-    Eigen::MatrixXd k = Eigen::MatrixXd::Constant(size, size, -1.0 / size);
-    k.diagonal().array() += 1;
-    Eigen::VectorXd load = Eigen::VectorXd::LinSpaced(size, -0.4, 0.4);
-    load[0] = 0;
-    load.array() -= load.mean();
+    const Eigen::MatrixXd k = loose_springs();
+    const Eigen::VectorXd load = balanced_load();
     system.force = [&](const Eigen::VectorXd& x, double t) -> Eigen::VectorXd {
       Eigen::VectorXd f = k * x - t * load;
       f[0] += held * x[0];
