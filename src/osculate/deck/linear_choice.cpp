@@ -6,6 +6,8 @@
 
 #include "osculate/core/memory.hpp"
 #include "osculate/la/iterative.hpp"
+#include "osculate/mesh/compactness.hpp"
+#include "osculate/model/changing_unknowns.hpp"
 #include "osculate/model/factor_estimate.hpp"
 
 namespace osculate::deck {
@@ -20,6 +22,40 @@ bool keeps_volume(const model::BasicModel<Dim>& model) {
   });
 }
 
+/// Whether nearly all of the tangent stays what it is, so that factors of it serve for long, or all
+/// but few unknowns are eliminated (la::Condensed asks for the same).
+template <int Dim>
+bool stays_mostly(const model::BasicModel<Dim>& model, double operations) {
+  constexpr double worth_it = 3;
+  const bool linear = std::ranges::all_of(
+      model.sections, [](const auto& section) { return model::is_linear(section); });
+  if (linear && model.pairs.empty()) return true;
+  const std::vector<Index> few = model::changing_unknowns(model, model::dof_space(model), 0);
+  const auto count = static_cast<double>(few.size());
+  return !few.empty() && operations > worth_it * count * count * count / 3;
+}
+
+template <int Dim>
+double most_entries(const model::BasicModel<Dim>& model, double operations,
+                    const FactorLimits& limits) {
+  if (stays_mostly(model, operations)) return limits.anything;
+  std::vector<mesh::CellRef> cells;
+  for (const auto& section : model.sections)
+    cells.insert(cells.end(), section.cells.begin(), section.cells.end());
+  return mesh::least_compactness(model.mesh, cells) < limits.compactness ? limits.anything
+                                                                         : limits.compact;
+}
+
+/// Whether factors have more entries for each unknown than multigrid is cheaper than.
+template <int Dim>
+bool too_many_entries(const model::BasicModel<Dim>& model, const model::FactorEstimate& factors,
+                      double triangles, const FactorLimits& limits) {
+  const double each =
+      triangles * factors.entries / static_cast<double>(Dim * model.mesh.nodes.size());
+  if (each <= std::min(limits.compact, limits.anything) || keeps_volume(model)) return false;
+  return each > limits.anything || each > most_entries(model, factors.operations, limits);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -27,18 +63,17 @@ void choose_linear_solver(Linear asked, const FactorLimits& limits, BasicBuilt<D
   if (asked == Linear::direct || !model::factors_tangents(built.model.steps)) return;
   if (asked == Linear::automatic) {
     const double triangles = model::needs_unsymmetric(built.model) ? 2 : 1;
-    const double entries = model::factor_entries(built.model);
-    const double unknowns = static_cast<double>(Dim * built.model.mesh.nodes.size());
-    const double needed = model::factor_bytes(triangles * entries);
+    const model::FactorEstimate factors = model::factor_estimate(built.model);
+    const double needed = model::factor_bytes(triangles * factors.entries);
     if (limits.memory > 0 && needed > limits.memory)
       built.linear_note =
           fmt::format("multigrid, as factors of the tangent would take about {} of {}",
                       core::memory_text(needed), core::memory_text(limits.memory));
-    else if (2 * entries > limits.entries ||
-             (triangles * entries > limits.of_unknown * unknowns && !keeps_volume(built.model)))
+    else if (2 * factors.entries > limits.entries ||
+             too_many_entries(built.model, factors, triangles, limits))
       built.linear_note =
           fmt::format("multigrid, as factors of the tangent would have about {:.2g} entries",
-                      triangles * entries);
+                      triangles * factors.entries);
     else
       return;
   } else {

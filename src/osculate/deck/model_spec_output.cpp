@@ -133,10 +133,11 @@ BoundKey<S> linear_key() {
   return may(&S::linear, "linear",
              choice("How the linear systems of the iterations are solved.",
                     {word("auto", Linear::automatic,
-                          "direct; multigrid where factors would have more than 900 entries for "
-                          "each unknown (compact bodies of more than 13 000 unknowns with "
-                          "friction, of some 60 000 without, that are not nearly incompressible) "
-                          "or 3e8 in all, or would take more than the memory of the machine"),
+                          "direct; multigrid for compact bodies from some 4 000 unknowns on (where "
+                          "factors would have more than 450 entries for each; 900 of bodies that "
+                          "are not compact, and of linear ones of which little changes; never of "
+                          "nearly incompressible ones), and where factors would have 3e8 entries "
+                          "or take more than the memory of the machine"),
                      word("direct", Linear::direct, "by factors (MUMPS)"),
                      word("multigrid", Linear::multigrid,
                           "by GMRES with a multigrid cycle for the bodies and factors of what is "

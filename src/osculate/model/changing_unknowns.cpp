@@ -9,12 +9,6 @@ namespace osculate::model {
 namespace {
 
 template <int Dim>
-bool is_linear(const BasicBulkSection<Dim>& section) {
-  return section.section.kinematics == solid::Kinematics::small &&
-         material::linear(section.section.law);
-}
-
-template <int Dim>
 void mark_cells(const BasicModel<Dim>& model, Marks<Dim>& marks) {
   for (const BasicBulkSection<Dim>& section : model.sections)
     for (const mesh::CellRef& cell : section.cells) {
@@ -25,6 +19,12 @@ void mark_cells(const BasicModel<Dim>& model, Marks<Dim>& marks) {
 }
 
 }  // namespace
+
+template <int Dim>
+bool is_linear(const BasicBulkSection<Dim>& section) {
+  return section.section.kinematics == solid::Kinematics::small &&
+         material::linear(section.section.law);
+}
 
 template <int Dim>
 bool is_constant(const BasicModel<Dim>& model, const BasicDofSpace<Dim>& dofs,
@@ -61,6 +61,8 @@ std::vector<Index> changing_unknowns(const BasicModel<Dim>& model, const BasicDo
   return out;
 }
 
+template bool is_linear(const BulkSection&);
+template bool is_linear(const BulkSection3&);
 template bool is_constant(const Model&, const DofSpace&, const BulkSection&, const mesh::CellRef&);
 template bool is_constant(const Model3&, const DofSpace3&, const BulkSection3&,
                           const mesh::CellRef&);

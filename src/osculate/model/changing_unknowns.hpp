@@ -5,6 +5,11 @@
 
 namespace osculate::model {
 
+/// Whether forces of a section's cells are linear in the displacements, where no rigid body turns
+/// their nodes.
+template <int Dim>
+[[nodiscard]] bool is_linear(const BasicBulkSection<Dim>& section);
+
 /// Whether a cell has the same stiffness in all states of a model: its forces are linear in the
 /// displacements, and no rigid body turns its nodes.
 template <int Dim>

@@ -29,7 +29,10 @@ class Dissection {
     seen_.assign(model.reference.size(), 0);
   }
 
-  double entries() { return part(cells_.begin(), cells_.end()); }
+  FactorEstimate factors() {
+    part(cells_.begin(), cells_.end());
+    return sum_;
+  }
 
  private:
   using Cells = std::vector<Index>::iterator;
@@ -82,20 +85,26 @@ class Dissection {
     return found;
   }
 
-  double part(Cells from, Cells to) {
-    if (from == to) return 0;
+  void add_front(double own, double around) {
+    sum_.entries += own * (own + 1) / 2 + own * around;
+    sum_.operations += own * (own * own / 3 + own * around + around * around);
+  }
+
+  void part(Cells from, Cells to) {
+    if (from == to) return;
     const double around = Dim * count(from, to, true);
-    const auto front = [&](double own) { return own * (own + 1) / 2 + own * around; };
-    if (to - from <= smallest) return front(Dim * count(from, to, false));
+    if (to - from <= smallest) return add_front(Dim * count(from, to, false), around);
     const Cells middle = halved(from, to);
-    const double own = front(Dim * cut(from, middle, to));
-    return own + part(from, middle) + part(middle, to);
+    add_front(Dim * cut(from, middle, to), around);
+    part(from, middle);
+    part(middle, to);
   }
 
   [[nodiscard]] Vec<Dim> centre(Index cell) const {
     return centres_[at(cell)].template cast<double>();
   }
 
+  FactorEstimate sum_;
   std::vector<std::size_t> start_;
   std::vector<Index> nodes_, cells_;
   std::vector<Eigen::Matrix<float, Dim, 1>> centres_;
@@ -107,8 +116,8 @@ class Dissection {
 }  // namespace
 
 template <int Dim>
-double factor_entries(const BasicModel<Dim>& model) {
-  return Dissection<Dim>(model).entries();
+FactorEstimate factor_estimate(const BasicModel<Dim>& model) {
+  return Dissection<Dim>(model).factors();
 }
 
 double factor_bytes(double entries) {
@@ -122,7 +131,7 @@ bool factors_tangents(const std::vector<Step>& steps) {
   });
 }
 
-template double factor_entries(const Model&);
-template double factor_entries(const Model3&);
+template FactorEstimate factor_estimate(const Model&);
+template FactorEstimate factor_estimate(const Model3&);
 
 }  // namespace osculate::model

@@ -433,7 +433,7 @@ template <int Dim>
 MemoryNeed memory_need(const model::BasicModel<Dim>& model, bool unsymmetric) {
   if (!model::factors_tangents(model.steps)) return {};
   MemoryNeed need;
-  need.entries = model::factor_entries(model) * (unsymmetric ? 2 : 1);
+  need.entries = model::factor_estimate(model).entries * (unsymmetric ? 2 : 1);
   need.needed = model::factor_bytes(need.entries);
   need.available = core::memory_available();
   return need;

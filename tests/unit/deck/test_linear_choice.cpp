@@ -7,17 +7,27 @@
 namespace osculate::deck {
 namespace {
 
-Built3 cube(const std::string& solver, const std::string& nu = "0.3") {
-  const Description d = parse_model(R"(osculate: 1
-mesh: {generate: {c: {box: {x: [0, 1], y: [0, 1], z: [0, 1], elements: [6, 6, 6]}}}}
-materials: {s: {linear_elastic: {E: 200, nu: )" +
-                                        nu + R"(}}}
+struct Block {
+  std::string height = "1";
+  std::string material = "linear_elastic: {E: 200, nu: 0.3}";
+  std::string more = "";  ///< parts of the model
+};
+
+Built3 built_of(const Block& block) {
+  const Description d = parse_model(
+      R"(osculate: 1
+mesh: {generate: {c: {box: {x: [0, 1], y: [0, 1], z: [0, )" +
+          block.height + R"(], elements: [6, 6, 6]}}}}
+materials: {s: {)" +
+          block.material + R"(}}
 sections: [{on: c, material: s, element: solid}]
 steps: [{name: pull, increments: 1, prescribe: [{on: c.bottom, ux: 0, uy: 0, uz: 0}, {on: c.top, uz: 0.01}]}]
-)" + solver,
-                                    "model.yaml");
+)" + block.more,
+      "model.yaml");
   return build3(d, load_mesh(d));
 }
+
+Built3 cube(const std::string& solver) { return built_of({.more = solver}); }
 
 bool iterates(const Built3& built) { return built.options.linear_solver()->asks_for_places(); }
 
@@ -45,11 +55,31 @@ TEST(LinearChoice, MultigridWhereFactorsHaveManyEntries) {
 
 // Of compact bodies, but for those that multigrid takes long for.
 TEST(LinearChoice, MultigridWhereAnUnknownHasManyEntries) {
-  Built3 steel = cube(""), rubber = cube("", "0.499");
+  Built3 steel = cube(""), rubber = built_of({.material = "linear_elastic: {E: 200, nu: 0.499}"});
   for (Built3* const built : {&steel, &rubber})
-    choose_linear_solver(Linear::automatic, {.of_unknown = 10}, *built);
+    choose_linear_solver(Linear::automatic, {.anything = 10}, *built);
   EXPECT_TRUE(iterates(steel));
   EXPECT_FALSE(iterates(rubber));
+}
+
+// Smaller compact bodies, too, where more changes than a few unknowns.
+TEST(LinearChoice, MultigridForSmallerCompactBodiesThatChange) {
+  const std::string neo_hooke = "neo_hooke: {E: 200, nu: 0.3}";
+  const auto chosen = [](const Block& block) {
+    Built3 built = built_of(block);
+    choose_linear_solver(Linear::automatic, {.compact = 10}, built);
+    return iterates(built);
+  };
+  EXPECT_TRUE(chosen({.material = neo_hooke}));
+  EXPECT_FALSE(chosen({.height = "0.05", .material = neo_hooke}));
+  EXPECT_FALSE(chosen({}));  // nothing changes: its factors serve for all of the steps
+  const auto held_by = [](const std::string& slave) {
+    return "rigid: {ground: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}}}\n"
+           "contact: [{name: c, master: ground, slave: " +
+           slave + ", weight: node, normal: {penalty: 1000}}]\n";
+  };
+  EXPECT_TRUE(chosen({.more = held_by("c")}));
+  EXPECT_FALSE(chosen({.more = held_by("c.bottom_front_left")}));  // the others are eliminated once
 }
 
 TEST(LinearChoice, AsAskedFor) {

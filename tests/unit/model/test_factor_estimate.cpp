@@ -1,4 +1,5 @@
-// The entries of factors that are told of before there is a matrix, against those that there are.
+// Entries and operations of factors that are told of before there is a matrix, against those that
+// there are.
 #include "osculate/model/factor_estimate.hpp"
 
 #include "block.hpp"
@@ -23,9 +24,13 @@ void expect_about(const BlockSpec& spec) {
   la::Mumps solver;
   const la::FactorReport report = solver.factor(k, 1, la::Symmetry::indefinite);
   ASSERT_EQ(report.status, la::SolveStatus::ok) << report.message;
-  const double ratio = factor_entries(m) / static_cast<double>(report.factor_entries);
-  EXPECT_GT(ratio, 0.7);
-  EXPECT_LT(ratio, 1.5);
+  const FactorEstimate estimate = factor_estimate(m);
+  const double entries = estimate.entries / static_cast<double>(report.factor_entries);
+  EXPECT_GT(entries, 0.7);
+  EXPECT_LT(entries, 1.5);
+  const double operations = estimate.operations / report.operations;
+  EXPECT_GT(operations, 0.5);
+  EXPECT_LT(operations, 2.25);
 }
 
 TEST(FactorEstimate, IsAboutWhatTheSolverNeedsInThePlane) {
