@@ -69,6 +69,7 @@ BasicSystem<Dim>::Impl::Impl(const BasicModel<Dim>& m, int threads, const core::
       nearly_symmetric(symmetry == la::Symmetry::unsymmetric && constraints.count() == 0 &&
                        !is_unsymmetric_but_for_pressures(m)),
       ranks(of) {
+  contact.threads = bulk.threads;
   last.contact.resize(model.pairs.size());
   last.memory.resize(memory_size(model));
   touched.assign(model.pairs.size(), false);

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "osculate/core/error.hpp"
+#include "osculate/core/pieces.hpp"
 #include "osculate/pairing/combinations.hpp"
 #include "osculate/pairing/mortar.hpp"
 #include "osculate/pairing/pair_points.hpp"
@@ -82,36 +84,128 @@ Mat<Dim, Dim - 1> frame_of_history(const PairDefinition<Dim>& pair, std::size_t 
 
 }  // namespace
 
+namespace {
+
+/// The points of a pair, one run of whole facets of the slave after the other, by several threads.
+/// Who takes their blocks gets them after each run, so that there are tangents of one run alone.
+template <int Dim>
+class PointLoop {
+ public:
+  PointLoop(const PairDefinition<Dim>& pair, PairEvaluation<Dim>& out, const BlockTaker<Dim>& take,
+            int threads)
+      : points_(pair.slave.points), out_(out), take_(take) {
+    // Blocks of the master's facets are the sum of points.
+    if (out.master_blocks == 0) threads_ = threads;
+  }
+
+  /// evaluate(i, laps, seconds) for every point.
+  template <class Evaluate>
+  void run(const Evaluate& evaluate) {
+    const std::size_t length = threads_ > 1 ? 64 * piece : take_ ? piece : points_.size();
+    for (std::size_t end = 0; begin_ < points_.size(); begin_ = end) {
+      end = end_of_facets(begin_, length);
+      lend(end);
+      evaluate_run(end, evaluate);
+      if (!take_) continue;
+      hand_over(end);
+      take_back(end);
+    }
+  }
+  /// Blocks of no slave point.
+  void hand_over_others() {
+    if (take_) hand_over(out_.blocks.size());
+  }
+
+ private:
+  static constexpr std::size_t piece = 16;
+
+  [[nodiscard]] std::span<const Index> nodes_of(std::size_t i) const {
+    return std::span(points_[i].nodes).first(static_cast<std::size_t>(points_[i].count));
+  }
+  /// The end of the facet in which the run from `from` has at least so many points.
+  [[nodiscard]] std::size_t end_of_facets(std::size_t from, std::size_t least) const {
+    std::size_t end = std::min(points_.size(), from + least);
+    while (end < points_.size() && std::ranges::equal(nodes_of(end - 1), nodes_of(end))) ++end;
+    return end;
+  }
+  /// The tangents of the last run serve for this one.
+  void lend(std::size_t end) {
+    const std::size_t count = std::min(end - begin_, out_.spare.size());
+    for (std::size_t k = 0; k < count; ++k) {
+      ContactBlock<Dim>& block = out_.blocks[begin_ + k];
+      std::swap(block.tangent, out_.spare[k].tangent);
+      std::swap(block.without_master, out_.spare[k].without_master);
+    }
+  }
+  void take_back(std::size_t end) {
+    if (out_.spare.size() < end - begin_) out_.spare.resize(end - begin_);
+    for (std::size_t k = 0; k < end - begin_; ++k) {
+      ContactBlock<Dim>& block = out_.blocks[begin_ + k];
+      out_.spare[k] = {std::move(block.tangent), std::exchange(block.without_master, false)};
+    }
+  }
+  template <class Evaluate>
+  void evaluate_run(std::size_t end, const Evaluate& evaluate) {
+    const auto some = [&](std::size_t from, std::size_t to, PairSeconds& seconds) {
+      Laps laps;
+      for (std::size_t i = from; i < to; ++i) evaluate(i, laps, seconds);
+    };
+    if (threads_ == 1) return some(begin_, end, out_.seconds);
+    std::vector<std::size_t> cuts{begin_};
+    while (cuts.back() < end) cuts.push_back(end_of_facets(cuts.back(), piece));
+    std::vector<PairSeconds> seconds(cuts.size());
+    core::for_pieces(cuts.size() - 1, 1, threads_,
+                     [&](std::size_t p, std::size_t) { some(cuts[p], cuts[p + 1], seconds[p]); });
+    for (const PairSeconds& of_piece : seconds) {
+      out_.seconds.projection += of_piece.projection / threads_;
+      out_.seconds.evaluation += of_piece.evaluation / threads_;
+    }
+  }
+  void hand_over(std::size_t end) {
+    take_(std::span<const ContactBlock<Dim>>(out_.blocks).subspan(begin_, end - begin_));
+  }
+
+  const std::vector<SlavePoint<Dim>>& points_;
+  PairEvaluation<Dim>& out_;
+  const BlockTaker<Dim>& take_;
+  int threads_ = 1;
+  std::size_t begin_ = 0;
+};
+
+}  // namespace
+
 template <int Dim>
 void evaluate(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Dim>& committed,
               bool with_tangent, PairEvaluation<Dim>& out, const ActiveSet<Dim>& active_set,
-              const PairMultipliers<Dim>* multipliers) {
+              const PairMultipliers<Dim>* multipliers, const BlockTaker<Dim>& take, int threads) {
   Laps laps;
   out.stiffening = multipliers ? multipliers->stiffening : 1;
-  if (is_tied(pair)) {
-    evaluate_ties(pair, x, active_set.relief, with_tangent, out);
+  if (is_tied(pair) || by_mortar(pair)) {
+    if (is_tied(pair))
+      evaluate_ties(pair, x, active_set.relief, with_tangent, out);
+    else
+      evaluate_mortar(pair, x, committed, with_tangent, out, active_set, multipliers);
     laps.add_to(out.seconds.evaluation);
-    return;
-  }
-  if (by_mortar(pair)) {
-    evaluate_mortar(pair, x, committed, with_tangent, out, active_set, multipliers);
-    laps.add_to(out.seconds.evaluation);
+    if (take) take(out.blocks);
     return;
   }
   refresh(pair, x, with_tangent, out);
   out.near = active_set.near;
   laps.add_to(out.seconds.search);
-  for (std::size_t i = 0; i < pair.slave.points.size(); ++i) {
+  PointLoop<Dim> loop(pair, out, take, threads);
+  loop.run([&](std::size_t i, Laps& of_point, PairSeconds& seconds) {
     PointContext<Dim> context = context_of(pair, active_set, multipliers, i);
     if (!committed.overlap.empty()) context.relieved = active_set.relief * committed.overlap[i];
     evaluate_slave_point(pair, x, committed.points[i], active_set, context, with_tangent, i, out,
-                         laps);
-  }
-  if constexpr (Dim == 3) {
-    if (!edges_of(pair)) return;
-    evaluate_edge_contacts(pair, x, committed, with_tangent, out, active_set);
-    laps.add_to(out.seconds.evaluation);
-  }
+                         of_point, seconds);
+  });
+  if constexpr (Dim == 3)
+    if (edges_of(pair)) {
+      Laps of_edges;
+      evaluate_edge_contacts(pair, x, committed, with_tangent, out, active_set);
+      of_edges.add_to(out.seconds.evaluation);
+    }
+  loop.hand_over_others();
 }
 
 template <int Dim>
@@ -334,9 +428,11 @@ template ActiveSet<3> committed_active_set<3>(const PairDefinition<3>&, const Pa
 template ActiveSet<2> evaluated_active_set<2>(const PairEvaluation<2>&, const ActiveSet<2>&);
 template ActiveSet<3> evaluated_active_set<3>(const PairEvaluation<3>&, const ActiveSet<3>&);
 template void evaluate<2>(const PairDefinition<2>&, Points<2>, const PairState<2>&, bool,
-                          PairEvaluation<2>&, const ActiveSet<2>&, const PairMultipliers<2>*);
+                          PairEvaluation<2>&, const ActiveSet<2>&, const PairMultipliers<2>*,
+                          const BlockTaker<2>&, int);
 template void evaluate<3>(const PairDefinition<3>&, Points<3>, const PairState<3>&, bool,
-                          PairEvaluation<3>&, const ActiveSet<3>&, const PairMultipliers<3>*);
+                          PairEvaluation<3>&, const ActiveSet<3>&, const PairMultipliers<3>*,
+                          const BlockTaker<3>&, int);
 template PairMultipliers<2> initial_multipliers<2>(const PairDefinition<2>&, const PairState<2>&);
 template PairMultipliers<2> augmented<2>(const PairDefinition<2>&, const PairEvaluation<2>&,
                                          const PairMultipliers<2>&);

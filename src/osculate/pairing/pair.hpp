@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -199,8 +200,6 @@ struct ContactBlock {
     nodes.resize(static_cast<std::size_t>(most));
     force.resize(size);
     branch_force.resize(size);
-    path_rows.resize(size, Dim);
-    area_rows.resize(size);
   }
   /// Likewise, of a block that has a tangent.
   void reserve_tangent(int most) {
@@ -208,7 +207,18 @@ struct ContactBlock {
     tangent.resize(Dim * most, Dim * most);
     without_master = false;
   }
+  /// Likewise, of one with terms of other nodes.
+  void reserve_path() {
+    if (path_rows.rows() < force.size()) path_rows.resize(force.size(), Dim);
+  }
+  void reserve_area() {
+    if (area_rows.size() < force.size()) area_rows.resize(force.size());
+  }
 };
+
+/// Takes blocks, some of which may be of no use, in the order of their points.
+template <int Dim>
+using BlockTaker = std::function<void(std::span<const ContactBlock<Dim>>)>;
 
 /// Where the time of evaluations went [s], summed up over all calls with the same buffers.
 struct PairSeconds {
@@ -226,6 +236,12 @@ struct PairEvaluation {
   /// unused ones with `count == 0`). Likewise those of a smooth master's facets in space.
   std::vector<ContactBlock<Dim>> blocks;
   std::size_t master_blocks = 0;  ///< the first one of the master's facets; 0: there are none
+  /// Tangents of blocks that have been taken, for the next ones.
+  struct SpareTangent {
+    Eigen::MatrixXd tangent;
+    bool without_master = false;
+  };
+  std::vector<SpareTangent> spare;
   EdgeBuffers edges;
   int block_nodes = 0;        ///< of the largest block there can be
   std::vector<double> areas;  ///< of the slave's points, if they change
@@ -290,14 +306,17 @@ template <int Dim>
 
 /// One evaluation of all points of the pair: search, projection, kinematics, tractions from the
 /// committed history, residual and (if asked) tangent. `multipliers` are needed where the pair's
-/// enforcement is not by penalty alone.
+/// enforcement is not by penalty alone. `take` gets all blocks, those of some facets of the slave
+/// as soon as they are complete: their tangents are gone afterwards. Results have the same bits by
+/// any number of threads.
 ///
 /// Source     KS2D Tables 1 and 2 with docs/errata.md; KSVD section 3
 /// Tested by  tests/unit/pairing/test_pair_tangent.cpp, test_pair_history.cpp, and their 3D like
 template <int Dim>
 void evaluate(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Dim>& committed,
               bool with_tangent, PairEvaluation<Dim>& out, const ActiveSet<Dim>& active_set = {},
-              const PairMultipliers<Dim>* multipliers = nullptr);
+              const PairMultipliers<Dim>* multipliers = nullptr, const BlockTaker<Dim>& take = {},
+              int threads = 1);
 
 /// The places that a `near` evaluation at `x` has left out: what points without a place remember
 /// and report, before `commit`.

@@ -184,15 +184,16 @@ template <int Dim>
 void evaluate_slave_point(const PairDefinition<Dim>& pair, Points<Dim> x,
                           const contact::PointHistory<Dim>& history,
                           const ActiveSet<Dim>& active_set, PointContext<Dim>& context,
-                          bool with_tangent, std::size_t i, PairEvaluation<Dim>& out, Laps& laps) {
+                          bool with_tangent, std::size_t i, PairEvaluation<Dim>& out, Laps& laps,
+                          PairSeconds& seconds) {
   ProjectedPoint<Dim> projected =
       project_point(pair, out, x, i, history, kept_facet<Dim>(pair.master, context.active, x),
                     derivatives_needed(pair, with_tangent));
   context.way =
       way_of_gap(pair, active_set, history, projected.projection.facet, projected.kinematics.gap);
-  laps.add_to(out.seconds.projection);
+  laps.add_to(seconds.projection);
   evaluate_projected(pair, x, history, projected, context, with_tangent, i, out);
-  laps.add_to(out.seconds.evaluation);
+  laps.add_to(seconds.evaluation);
 }
 
 }  // namespace osculate::pairing

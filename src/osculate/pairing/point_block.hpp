@@ -47,6 +47,7 @@ void scatter_forces(std::span<const Vec<Dim>> f, int count, const WeightOf& w, d
 template <int Dim, class WeightOf>
 void scatter_path(std::span<const Mat<Dim, Dim>> s, const WeightOf& w, double area,
                   ContactBlock<Dim>& block) {
+  block.reserve_path();
   for (int k = 0; k < block.count; ++k) {
     Mat<Dim, Dim> behind = Mat<Dim, Dim>::Zero();
     for (std::size_t a = 0; a < s.size(); ++a) behind += w(a, k) * s[a];

@@ -155,6 +155,7 @@ void set_block(const PairDefinition<Dim>& pair, const SurfaceSample<Dim>& point,
     scatter_path<Dim>(terms.s, w, weight, block);
   if (!pair.tangent.consistent || pair.weight != Weight::current_area || !point.slave) return;
   add_area_gradient<Dim>(pair, out, i, k.normal, block.area);
+  block.reserve_area();
   scatter_forces<Dim>(terms.f, block.count, w, pass_factor(pair), block.area_rows);
 }
 

@@ -406,6 +406,7 @@ void evaluate_reentrant_edge(const PairDefinition<3>& pair, Points<3> x,
   set_constraint_tangent(t, w, spring, area, result.weight, block);
   if (pair.weight != Weight::current_area) return;
   add_area_gradient<3>(pair, out, i, place.bisector, block.area);
+  block.reserve_area();
   scatter_forces<3>(t.f, block.count, w, pass_factor(pair), block.area_rows);
 }
 

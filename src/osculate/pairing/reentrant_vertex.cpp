@@ -247,11 +247,12 @@ void evaluate_reentrant_vertex(const PairDefinition<2>& pair, Points<2> x,
   if (!with_tangent) return;
   block.reserve_tangent(out.block_nodes);
   scatter_tangent<2>(terms, block.count, w, result.weight, block.tangent);
+  block.reserve_path();
   block.path_rows.topRows(2 * block.count).setZero();
   set_constraint_tangent(spring, area, result.weight, w, block);
-  block.area_rows.head(2 * block.count).setZero();
   if (pair.weight != Weight::current_area) return;
   add_area_gradient<2>(pair, out, i, reentrant.bisector, block.area);
+  block.reserve_area();
   scatter_forces<2>(f, block.count, w, pass_factor(pair), block.area_rows);
 }
 

@@ -9,6 +9,7 @@
 #include "allocation_count.hpp"
 #include "osculate/pairing/pair.hpp"
 #include "osculate/pairing/sampling.hpp"
+#include "pair_sample.hpp"
 
 namespace osculate::testing {
 namespace {
@@ -327,18 +328,21 @@ TEST(SamplingHistory, AClosedLoopDissipatesTheFrictionTimesTheWay) {
   }
 }
 
-/// Allocations of an evaluation with tangent, the second one with the same buffers.
+/// Allocations of an evaluation with tangent, the second one with the same buffers. `taken`: blocks
+/// are handed over.
 template <int Dim>
-std::size_t allocations(const Choice& choice, double mu) {
+std::size_t allocations(const Choice& choice, double mu, bool taken) {
   Carpet<Dim> c = carpet<Dim>(choice, mu, five);
+  pairing::BlockTaker<Dim> take;
+  if (taken) take = [](std::span<const pairing::ContactBlock<Dim>>) {};
   c.start();
   c.place(along<Dim>(0.1));
   c.step();
   c.place(along<Dim>(0.15));
-  pairing::evaluate<Dim>(c.pair, c.x, c.state, true, c.now);
+  pairing::evaluate<Dim>(c.pair, c.x, c.state, true, c.now, {}, nullptr, take);
   c.place(along<Dim>(0.16));
   const std::size_t before = allocation_count();
-  pairing::evaluate<Dim>(c.pair, c.x, c.state, true, c.now);
+  pairing::evaluate<Dim>(c.pair, c.x, c.state, true, c.now, {}, nullptr, take);
   const std::size_t after = allocation_count();
   EXPECT_EQ(c.now.points[0].status, mu > 1 ? Status::stick : Status::slip);
   return after - before;
@@ -346,9 +350,57 @@ std::size_t allocations(const Choice& choice, double mu) {
 
 TEST(SamplingHistory, NothingIsAllocatedAfterTheFirstCall) {
   for (const Choice& choice : choices)
-    for (const double mu : {1e6, 0.05}) {
-      EXPECT_EQ(allocations<2>(choice, mu), 0u) << choice.name;
-      EXPECT_EQ(allocations<3>(choice, mu), 0u) << choice.name;
+    for (const double mu : {1e6, 0.05})
+      for (const bool taken : {false, true}) {
+        EXPECT_EQ(allocations<2>(choice, mu, taken), 0u) << choice.name;
+        EXPECT_EQ(allocations<3>(choice, mu, taken), 0u) << choice.name;
+      }
+}
+
+/// Blocks that are handed over have the bits of those that stay, by any number of threads.
+template <int Dim>
+void expect_the_same_blocks(const Choice& choice, int threads) {
+  SCOPED_TRACE(choice.name);
+  Cuts pieces;
+  for (int i = 0; i < 30; ++i) pieces.push_back(0.1 * i + 0.1);
+  Carpet<Dim> c = carpet<Dim>(choice, 0.05, five, pieces);
+  c.start();
+  c.place(along<Dim>(0.1));
+  c.step();
+  const auto size = static_cast<Eigen::Index>(Dim * c.x.size());
+  pairing::PairEvaluation<Dim> handing;
+  for (const double way : {0.15, 0.4, 0.41}) {
+    c.place(along<Dim>(way));
+    pairing::evaluate<Dim>(c.pair, c.x, c.state, true, c.now);
+    pairing::PairEvaluation<Dim> taken;
+    pairing::evaluate<Dim>(
+        c.pair, c.x, c.state, true, handing, {}, nullptr,
+        [&](std::span<const pairing::ContactBlock<Dim>> blocks) {
+          taken.blocks.insert(taken.blocks.end(), blocks.begin(), blocks.end());
+        },
+        threads);
+    ASSERT_EQ(taken.blocks.size(), c.now.blocks.size());
+    EXPECT_GT(assembled_tangent<Dim>(c.now, size).norm(), 0);
+    EXPECT_EQ(assembled_force<Dim>(taken, size), assembled_force<Dim>(c.now, size));
+    EXPECT_EQ(assembled_tangent<Dim>(taken, size), assembled_tangent<Dim>(c.now, size));
+    if (choice.mortar) continue;
+    for (const pairing::ContactBlock<Dim>& block : handing.blocks)
+      EXPECT_EQ(block.tangent.size(), 0);
+    EXPECT_GE(c.now.blocks.size(), 30u);
+    if (threads == 1) {
+      EXPECT_LT(handing.spare.size(), 26u);  // few tangents
+    }
+    pairing::PairEvaluation<Dim> staying;
+    pairing::evaluate<Dim>(c.pair, c.x, c.state, true, staying, {}, nullptr, {}, threads);
+    EXPECT_EQ(assembled_tangent<Dim>(staying, size), assembled_tangent<Dim>(c.now, size));
+  }
+}
+
+TEST(SamplingHistory, BlocksMayBeTakenAsSoonAsTheyAreComplete) {
+  for (const Choice& choice : choices)
+    for (const int threads : {1, 2, 5}) {
+      expect_the_same_blocks<2>(choice, threads);
+      expect_the_same_blocks<3>(choice, threads);
     }
 }
 

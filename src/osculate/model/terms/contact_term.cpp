@@ -62,11 +62,18 @@ void ContactTerm<Dim>::add(const State& committed, const Trial& trial, double fr
     active_set.near = near;
     active_set.relief = relief(pair, fraction);
     const bool has_multipliers = p < trial.state.multipliers.size();
-    pairing::evaluate<Dim>(pair, x, committed.pairs[p], to.with_tangent, contact[p], active_set,
-                           has_multipliers ? &trial.state.multipliers[p] : nullptr);
-    seconds += watch.seconds();
-    for (const pairing::ContactBlock<Dim>& block : contact[p].blocks)
-      if (block.active()) add_block(block, to);
+    double adding = 0;
+    pairing::evaluate<Dim>(
+        pair, x, committed.pairs[p], to.with_tangent, contact[p], active_set,
+        has_multipliers ? &trial.state.multipliers[p] : nullptr,
+        [&](std::span<const pairing::ContactBlock<Dim>> blocks) {
+          const Stopwatch of_blocks;
+          for (const pairing::ContactBlock<Dim>& block : blocks)
+            if (block.active()) add_block(block, to);
+          adding += of_blocks.seconds();
+        },
+        threads);
+    seconds += watch.seconds() - adding;
     constraints.add(p, to);
     for (const pairing::PointResult<Dim>& point : contact[p].points) {
       sign_point(point, out.counts.signature);
