@@ -9,6 +9,7 @@
 #include "osculate/mesh/compactness.hpp"
 #include "osculate/model/changing_unknowns.hpp"
 #include "osculate/model/factor_estimate.hpp"
+#include "osculate/model/unknown_places.hpp"
 
 namespace osculate::deck {
 namespace {
@@ -23,22 +24,35 @@ bool keeps_volume(const model::BasicModel<Dim>& model) {
 }
 
 /// Whether nearly all of the tangent stays what it is, so that factors of it serve for long, or all
-/// but few unknowns are eliminated (la::Condensed asks for the same).
+/// but few unknowns are eliminated (what la::Condensed asks for, but for its multipliers).
 template <int Dim>
 bool stays_mostly(const model::BasicModel<Dim>& model, double operations) {
-  constexpr double worth_it = 3;
+  constexpr double worth_it = 3, most = 4000;
   const bool linear = std::ranges::all_of(
       model.sections, [](const auto& section) { return model::is_linear(section); });
-  if (linear && model.pairs.empty()) return true;
+  const bool tied = std::ranges::all_of(
+      model.pairs, [](const auto& pair) { return pairing::is_tied(pair.definition); });
+  if (linear && tied) return true;
   const std::vector<Index> few = model::changing_unknowns(model, model::dof_space(model), 0);
   const auto count = static_cast<double>(few.size());
-  return !few.empty() && operations > worth_it * count * count * count / 3;
+  return !few.empty() && count <= most && operations > worth_it * count * count * count / 3;
+}
+
+/// Of the unknowns, those that multigrid solves for exactly: factors of their own in each
+/// iteration.
+template <int Dim>
+double share_of_exact(const model::BasicModel<Dim>& model) {
+  const la::Places places = model::unknown_places(model, model::dof_space(model), 0);
+  const auto exact = std::ranges::count(places.exact, 1);
+  return static_cast<double>(exact) /
+         static_cast<double>(std::max<std::size_t>(1, places.exact.size()));
 }
 
 template <int Dim>
 double most_entries(const model::BasicModel<Dim>& model, double operations,
                     const FactorLimits& limits) {
-  if (stays_mostly(model, operations)) return limits.anything;
+  if (stays_mostly(model, operations) || share_of_exact(model) > limits.exact)
+    return limits.anything;
   std::vector<mesh::CellRef> cells;
   for (const auto& section : model.sections)
     cells.insert(cells.end(), section.cells.begin(), section.cells.end());

@@ -119,13 +119,10 @@ class PointLoop {
  private:
   static constexpr std::size_t piece = 16;
 
-  [[nodiscard]] std::span<const Index> nodes_of(std::size_t i) const {
-    return std::span(points_[i].nodes).first(static_cast<std::size_t>(points_[i].count));
-  }
   /// The end of the facet in which the run from `from` has at least so many points.
   [[nodiscard]] std::size_t end_of_facets(std::size_t from, std::size_t least) const {
     std::size_t end = std::min(points_.size(), from + least);
-    while (end < points_.size() && std::ranges::equal(nodes_of(end - 1), nodes_of(end))) ++end;
+    while (end < points_.size() && on_same_nodes(points_[end - 1], points_[end])) ++end;
     return end;
   }
   /// The tangents of the last run serve for this one.
@@ -134,14 +131,17 @@ class PointLoop {
     for (std::size_t k = 0; k < count; ++k) {
       ContactBlock<Dim>& block = out_.blocks[begin_ + k];
       std::swap(block.tangent, out_.spare[k].tangent);
-      std::swap(block.without_master, out_.spare[k].without_master);
+      // Zero is what belongs to nodes of the master, behind so many of the slave.
+      block.without_master =
+          out_.spare[k].without_master && out_.spare[k].slave_count == points_[begin_ + k].count;
     }
   }
   void take_back(std::size_t end) {
     if (out_.spare.size() < end - begin_) out_.spare.resize(end - begin_);
     for (std::size_t k = 0; k < end - begin_; ++k) {
       ContactBlock<Dim>& block = out_.blocks[begin_ + k];
-      out_.spare[k] = {std::move(block.tangent), std::exchange(block.without_master, false)};
+      out_.spare[k] = {std::move(block.tangent), std::exchange(block.without_master, false),
+                       points_[begin_ + k].count};
     }
   }
   template <class Evaluate>
@@ -150,7 +150,8 @@ class PointLoop {
       Laps laps;
       for (std::size_t i = from; i < to; ++i) evaluate(i, laps, seconds);
     };
-    if (threads_ == 1) return some(begin_, end, out_.seconds);
+    constexpr std::size_t worth_it = 8 * piece;  // what threads do while one more is started
+    if (threads_ == 1 || end - begin_ < worth_it) return some(begin_, end, out_.seconds);
     std::vector<std::size_t> cuts{begin_};
     while (cuts.back() < end) cuts.push_back(end_of_facets(cuts.back(), piece));
     std::vector<PairSeconds> seconds(cuts.size());

@@ -240,6 +240,7 @@ struct PairEvaluation {
   struct SpareTangent {
     Eigen::MatrixXd tangent;
     bool without_master = false;
+    int slave_count = 0;  ///< where `without_master`, that of the block
   };
   std::vector<SpareTangent> spare;
   EdgeBuffers edges;

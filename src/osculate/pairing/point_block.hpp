@@ -240,20 +240,17 @@ template <int Dim>
 }
 
 /// The block that holds the tangent of block i: the first one over the same nodes among those of
-/// its slave facet, whose points stand behind each other.
+/// its slave facet, which begin with `first`.
 template <int Dim>
-[[nodiscard]] ContactBlock<Dim>& tangent_holder(std::size_t i,
+[[nodiscard]] ContactBlock<Dim>& tangent_holder(std::size_t i, std::size_t first,
                                                 std::vector<ContactBlock<Dim>>& blocks) {
-  constexpr std::size_t farthest = 16;
   ContactBlock<Dim>& own = blocks[i];
-  const auto same = [&](const ContactBlock<Dim>& other, int count) {
-    return std::equal(own.nodes.begin(), own.nodes.begin() + count, other.nodes.begin());
-  };
-  for (std::size_t j = i; j-- > 0 && i - j <= farthest;) {
+  for (std::size_t j = i; j-- > first;) {
     ContactBlock<Dim>& other = blocks[j];
-    if (!other.active()) continue;
-    if (other.slave_count != own.slave_count || !same(other, own.slave_count)) break;
-    if (!other.elsewhere && other.count == own.count && same(other, own.count)) return other;
+    if (other.active() && !other.elsewhere && other.count == own.count &&
+        other.slave_count == own.slave_count &&
+        std::equal(own.nodes.begin(), own.nodes.begin() + own.count, other.nodes.begin()))
+      return other;
   }
   return own;
 }

@@ -110,6 +110,19 @@ ContactBlock<Dim>* block_of_facet(const SurfaceSample<Dim>& point, PairEvaluatio
   return nullptr;
 }
 
+/// The first one of the points behind each other that stand on the same nodes of the slave as point
+/// i, of the last few; of edge-edge contacts the first of the last few.
+template <int Dim>
+std::size_t first_alike(const PairDefinition<Dim>& pair, std::size_t i) {
+  constexpr std::size_t farthest = 16;
+  const std::vector<SlavePoint<Dim>>& points = pair.slave.points;
+  const std::size_t least = i - std::min(i, farthest);
+  if (i >= points.size()) return std::max(points.size(), least);
+  std::size_t first = i;
+  while (first > least && on_same_nodes(points[first - 1], points[i])) --first;
+  return first;
+}
+
 /// Forces, tangent and constraint of a point in contact.
 template <int Dim>
 void set_block(const PairDefinition<Dim>& pair, const SurfaceSample<Dim>& point,
@@ -135,7 +148,7 @@ void set_block(const PairDefinition<Dim>& pair, const SurfaceSample<Dim>& point,
   if (!with_tangent) return;
   if (block.constraint.on) set_constraint_tangent(pair, i, k, r.traction, w, weight, block);
   ContactBlock<Dim>* const of_facet = block_of_facet(point, out);
-  ContactBlock<Dim>& holder = tangent_holder(i, out.blocks);
+  ContactBlock<Dim>& holder = tangent_holder(i, first_alike(pair, i), out.blocks);
   block.elsewhere = &holder != &block;
   holder.reserve_tangent(out.block_nodes);
   const bool own_path = path_is_own(block);

@@ -55,6 +55,12 @@ struct SlavePoint {
   }
 };
 
+template <int Dim>
+[[nodiscard]] bool on_same_nodes(const SlavePoint<Dim>& a, const SlavePoint<Dim>& b) {
+  return a.count == b.count &&
+         std::equal(a.nodes.begin(), a.nodes.begin() + a.count, b.nodes.begin());
+}
+
 /// The slave with its contact points: its nodes, unless sampled otherwise (sampling.hpp).
 template <int Dim>
 struct SlaveSide {

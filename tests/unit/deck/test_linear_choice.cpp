@@ -65,9 +65,9 @@ TEST(LinearChoice, MultigridWhereAnUnknownHasManyEntries) {
 // Smaller compact bodies, too, where more changes than a few unknowns.
 TEST(LinearChoice, MultigridForSmallerCompactBodiesThatChange) {
   const std::string neo_hooke = "neo_hooke: {E: 200, nu: 0.3}";
-  const auto chosen = [](const Block& block) {
+  const auto chosen = [](const Block& block, double exact = 1) {
     Built3 built = built_of(block);
-    choose_linear_solver(Linear::automatic, {.compact = 10}, built);
+    choose_linear_solver(Linear::automatic, {.compact = 10, .exact = exact}, built);
     return iterates(built);
   };
   EXPECT_TRUE(chosen({.material = neo_hooke}));
@@ -79,6 +79,8 @@ TEST(LinearChoice, MultigridForSmallerCompactBodiesThatChange) {
            slave + ", weight: node, normal: {penalty: 1000}}]\n";
   };
   EXPECT_TRUE(chosen({.more = held_by("c")}));
+  EXPECT_FALSE(chosen({.more = held_by("c")}, 0.6));  // 218 of 343 nodes are of contact
+  EXPECT_TRUE(chosen({.more = held_by("c")}, 0.65));
   EXPECT_FALSE(chosen({.more = held_by("c.bottom_front_left")}));  // the others are eliminated once
 }
 

@@ -9,7 +9,6 @@
 #include "allocation_count.hpp"
 #include "osculate/pairing/pair.hpp"
 #include "osculate/pairing/sampling.hpp"
-#include "pair_sample.hpp"
 
 namespace osculate::testing {
 namespace {
@@ -357,17 +356,37 @@ TEST(SamplingHistory, NothingIsAllocatedAfterTheFirstCall) {
       }
 }
 
+/// Returns    how many have a tangent
+template <int Dim>
+std::size_t expect_same_bits(const std::vector<pairing::ContactBlock<Dim>>& blocks,
+                             const std::vector<pairing::ContactBlock<Dim>>& expected) {
+  EXPECT_EQ(blocks.size(), expected.size());
+  std::size_t with_tangent = 0;
+  for (std::size_t i = 0; i < std::min(blocks.size(), expected.size()); ++i) {
+    const pairing::ContactBlock<Dim>&a = blocks[i], &b = expected[i];
+    EXPECT_EQ(a.count, b.count);
+    if (!a.active() || a.count != b.count) continue;
+    const Eigen::Index rows = Dim * a.count;
+    EXPECT_EQ(a.nodes, b.nodes);
+    EXPECT_EQ(a.force.head(rows), b.force.head(rows));
+    EXPECT_EQ(a.has_tangent(), b.has_tangent());
+    if (!a.has_tangent() || !b.has_tangent()) continue;
+    EXPECT_EQ(a.tangent.topLeftCorner(rows, rows), b.tangent.topLeftCorner(rows, rows));
+    ++with_tangent;
+  }
+  return with_tangent;
+}
+
 /// Blocks that are handed over have the bits of those that stay, by any number of threads.
 template <int Dim>
 void expect_the_same_blocks(const Choice& choice, int threads) {
   SCOPED_TRACE(choice.name);
   Cuts pieces;
-  for (int i = 0; i < 30; ++i) pieces.push_back(0.1 * i + 0.1);
+  for (int i = 0; i < 220; ++i) pieces.push_back(0.0127 * i + 0.1);
   Carpet<Dim> c = carpet<Dim>(choice, 0.05, five, pieces);
   c.start();
   c.place(along<Dim>(0.1));
   c.step();
-  const auto size = static_cast<Eigen::Index>(Dim * c.x.size());
   pairing::PairEvaluation<Dim> handing;
   for (const double way : {0.15, 0.4, 0.41}) {
     c.place(along<Dim>(way));
@@ -379,26 +398,24 @@ void expect_the_same_blocks(const Choice& choice, int threads) {
           taken.blocks.insert(taken.blocks.end(), blocks.begin(), blocks.end());
         },
         threads);
-    ASSERT_EQ(taken.blocks.size(), c.now.blocks.size());
-    EXPECT_GT(assembled_tangent<Dim>(c.now, size).norm(), 0);
-    EXPECT_EQ(assembled_force<Dim>(taken, size), assembled_force<Dim>(c.now, size));
-    EXPECT_EQ(assembled_tangent<Dim>(taken, size), assembled_tangent<Dim>(c.now, size));
-    if (choice.mortar) continue;
+    const std::size_t with_tangent = expect_same_bits<Dim>(taken.blocks, c.now.blocks);
+    if (choice.mortar) continue;  // their terms are of other nodes
+    EXPECT_GT(with_tangent, 100u);
     for (const pairing::ContactBlock<Dim>& block : handing.blocks)
       EXPECT_EQ(block.tangent.size(), 0);
-    EXPECT_GE(c.now.blocks.size(), 30u);
+    EXPECT_GE(c.now.blocks.size(), 220u);
     if (threads == 1) {
       EXPECT_LT(handing.spare.size(), 26u);  // few tangents
     }
     pairing::PairEvaluation<Dim> staying;
     pairing::evaluate<Dim>(c.pair, c.x, c.state, true, staying, {}, nullptr, {}, threads);
-    EXPECT_EQ(assembled_tangent<Dim>(staying, size), assembled_tangent<Dim>(c.now, size));
+    expect_same_bits<Dim>(staying.blocks, c.now.blocks);
   }
 }
 
 TEST(SamplingHistory, BlocksMayBeTakenAsSoonAsTheyAreComplete) {
   for (const Choice& choice : choices)
-    for (const int threads : {1, 2, 5}) {
+    for (const int threads : {1, 3}) {
       expect_the_same_blocks<2>(choice, threads);
       expect_the_same_blocks<3>(choice, threads);
     }
