@@ -9,6 +9,7 @@
 #include "allocation_count.hpp"
 #include "osculate/pairing/pair.hpp"
 #include "osculate/pairing/sampling.hpp"
+#include "osculate/pairing/smoothing.hpp"
 
 namespace osculate::testing {
 namespace {
@@ -419,6 +420,41 @@ TEST(SamplingHistory, BlocksMayBeTakenAsSoonAsTheyAreComplete) {
       expect_the_same_blocks<2>(choice, threads);
       expect_the_same_blocks<3>(choice, threads);
     }
+}
+
+// On smooth facets what belongs to the master's nodes is zero, behind so many nodes of the slave:
+// tangents are lent to points with other numbers of them.
+TEST(SamplingHistory, LentTangentsOfSmoothMastersKeepTheirZeros) {
+  Carpet<3> c;
+  pairing::FacetSurface slave;
+  Cuts pieces;
+  for (int i = 0; i < 40; ++i) pieces.push_back(0.07 * i + 0.1);
+  add_sides(c, five, pieces, slave);
+  const std::vector<pairing::SurfaceFacet> quads = slave.facets;
+  slave.facets.resize(quads.size() / 2);
+  for (std::size_t f = quads.size() / 2; f < quads.size(); ++f)
+    for (const std::size_t second : {1u, 2u})
+      slave.facets.push_back(pairing::surface_facet(
+          cell::CellType::tri3, std::array<Index, 3>{quads[f].nodes[0], quads[f].nodes[second],
+                                                     quads[f].nodes[second + 1]}));
+  pairing::connect(c.pair.master);
+  pairing::smooth(c.pair.master, c.x, {pairing::SmoothingKind::hermite, 0.5});
+  finish<3>(c, std::move(slave), choices[1], 0.05);
+  c.start();
+  c.place(along<3>(0.1));
+  c.step();
+  c.place(along<3>(0.15));
+  pairing::evaluate<3>(c.pair, c.x, c.state, true, c.now);
+  std::set<int> slave_counts;
+  for (const pairing::ContactBlock<3>& block : c.now.blocks)
+    if (block.active() && block.without_master) slave_counts.insert(block.slave_count);
+  EXPECT_EQ(slave_counts, (std::set<int>{3, 4}));
+  pairing::PairEvaluation<3> taken, handing;
+  pairing::evaluate<3>(c.pair, c.x, c.state, true, handing, {}, nullptr,
+                       [&](std::span<const pairing::ContactBlock<3>> blocks) {
+                         taken.blocks.insert(taken.blocks.end(), blocks.begin(), blocks.end());
+                       });
+  EXPECT_GT(expect_same_bits<3>(taken.blocks, c.now.blocks), 50u);
 }
 
 }  // namespace
