@@ -26,14 +26,15 @@ bool keeps_volume(const model::BasicModel<Dim>& model) {
 /// Whether nearly all of the tangent stays what it is, so that factors of it serve for long, or all
 /// but few unknowns are eliminated (what la::Condensed asks for, but for its multipliers).
 template <int Dim>
-bool stays_mostly(const model::BasicModel<Dim>& model, double operations) {
+bool stays_mostly(const model::BasicModel<Dim>& model, const model::BasicDofSpace<Dim>& dofs,
+                  double operations) {
   constexpr double worth_it = 3, most = 4000;
   const bool linear = std::ranges::all_of(
       model.sections, [](const auto& section) { return model::is_linear(section); });
   const bool tied = std::ranges::all_of(
       model.pairs, [](const auto& pair) { return pairing::is_tied(pair.definition); });
   if (linear && tied) return true;
-  const std::vector<Index> few = model::changing_unknowns(model, model::dof_space(model), 0);
+  const std::vector<Index> few = model::changing_unknowns(model, dofs, 0);
   const auto count = static_cast<double>(few.size());
   return !few.empty() && count <= most && operations > worth_it * count * count * count / 3;
 }
@@ -41,8 +42,8 @@ bool stays_mostly(const model::BasicModel<Dim>& model, double operations) {
 /// Of the unknowns, those that multigrid solves for exactly: factors of their own in each
 /// iteration.
 template <int Dim>
-double share_of_exact(const model::BasicModel<Dim>& model) {
-  const la::Places places = model::unknown_places(model, model::dof_space(model), 0);
+double share_of_exact(const model::BasicModel<Dim>& model, const model::BasicDofSpace<Dim>& dofs) {
+  const la::Places places = model::unknown_places(model, dofs, 0);
   const auto exact = std::ranges::count(places.exact, 1);
   return static_cast<double>(exact) /
          static_cast<double>(std::max<std::size_t>(1, places.exact.size()));
@@ -51,7 +52,8 @@ double share_of_exact(const model::BasicModel<Dim>& model) {
 template <int Dim>
 double most_entries(const model::BasicModel<Dim>& model, double operations,
                     const FactorLimits& limits) {
-  if (stays_mostly(model, operations) || share_of_exact(model) > limits.exact)
+  const model::BasicDofSpace<Dim> dofs = model::dof_space(model);
+  if (stays_mostly(model, dofs, operations) || share_of_exact(model, dofs) > limits.exact)
     return limits.anything;
   std::vector<mesh::CellRef> cells;
   for (const auto& section : model.sections)

@@ -135,7 +135,8 @@ BoundKey<S> linear_key() {
                     {word("auto", Linear::automatic,
                           "direct; multigrid for compact bodies from some 4 000 unknowns on (where "
                           "factors would have more than 450 entries for each; 900 of bodies that "
-                          "are not compact, and of linear ones of which little changes; never of "
+                          "are not compact, have contact on much of them, or are linear and change "
+                          "little; never of "
                           "nearly incompressible ones), and where factors would have 3e8 entries "
                           "or take more than the memory of the machine"),
                      word("direct", Linear::direct, "by factors (MUMPS)"),

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "osculate/mesh/node_areas.hpp"
 #include "osculate/mesh/support.hpp"
 #include "osculate/mesh/surface.hpp"
 
@@ -12,19 +13,15 @@ namespace {
 
 double compactness(const Mesh& mesh, std::vector<CellRef> cells) {
   const FaceTable table = face_table(mesh, cells);
-  const Vec3 origin = mesh.nodes[static_cast<std::size_t>(*nodes_of(mesh, cells.front()))];
+  const Vec3 origin = point(mesh, *nodes_of(mesh, cells.front()));
   const Surface surface = surface_facets(mesh, table, {"", 3, std::move(cells), {}});
   double area = 0, volume = 0;
   for (const SurfaceFacet& facet : surface.facets) {
     const std::span<const Index> corners = facet.corners();
-    const auto at = [&](std::size_t k) -> Vec3 {
-      return mesh.nodes[static_cast<std::size_t>(corners[k])] - origin;
-    };
-    for (std::size_t k = 2; k < corners.size(); ++k) {
-      const Vec3 normal = 0.5 * (at(k - 1) - at(0)).cross(at(k) - at(0));
-      area += normal.norm();
-      volume += normal.dot(at(0)) / 3;
-    }
+    const auto at = [&](std::size_t k) -> Vec3 { return point(mesh, corners[k]) - origin; };
+    area += polygon_area(mesh, corners);
+    for (std::size_t k = 2; k < corners.size(); ++k)
+      volume += at(0).dot(at(k - 1).cross(at(k))) / 6;
   }
   return area > 0 ? std::abs(volume) / (area * std::sqrt(area)) : 0;
 }
