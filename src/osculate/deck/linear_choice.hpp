@@ -12,8 +12,8 @@ struct FactorLimits {
   double compact = 450;   ///< the same for bodies that are compact and of which more changes than a
                           ///< few unknowns: of 4 000 unknowns with friction
   double compactness = 0.018;  ///< mesh::least_compactness from which on they are: plates 1 : 16
-  double exact = 0.22;         ///< most of the unknowns that may be of contact, as a share:
-                               ///< multigrid has factors of these for each matrix
+  double exact = 0.35;         ///< most of the unknowns that may be of contact, as a share:
+                               ///< multigrid has factors of these for each increment, or more
 };
 
 /// Linear systems are solved as it is asked for: by default with factors up to these limits, else

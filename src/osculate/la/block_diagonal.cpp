@@ -1,9 +1,12 @@
 #include "osculate/la/block_diagonal.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 
 namespace osculate::la {
 namespace {
+
+constexpr std::size_t blocks_at_least = 500;  // groups, while a thread is told of them
 
 Eigen::MatrixXd inverse_of_block(const CompressedRows& a, Index first, Index size) {
   constexpr double digits = 1e-7;
@@ -30,30 +33,35 @@ void apply_block(const double* block, const Eigen::VectorXd& r, Index first, Ind
 
 }  // namespace
 
-BlockDiagonal::BlockDiagonal(const CompressedRows& a, const GroupStarts& start) : start_(start) {
+BlockDiagonal::BlockDiagonal(const CompressedRows& a, const GroupStarts& start, core::Crew& crew)
+    : start_(start) {
   for (std::size_t g = 0; g + 1 < start.size(); ++g) {
-    const Index size = start[g + 1] - start[g];
-    const Eigen::MatrixXd inverse = inverse_of_block(a, start[g], size);
-    value_.insert(value_.end(), inverse.data(), inverse.data() + inverse.size());
-    place_.push_back(value_.size());
+    const std::size_t size = as_size(start[g + 1] - start[g]);
+    place_.push_back(place_[g] + size * size);
   }
+  value_.resize(place_.back());
+  crew.share_runs(start.size() - 1, blocks_at_least, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t g = begin; g < end; ++g) {
+      const Eigen::MatrixXd inverse = inverse_of_block(a, start[g], start[g + 1] - start[g]);
+      std::copy_n(inverse.data(), inverse.size(), value_.data() + place_[g]);
+    }
+  });
 }
 
-void BlockDiagonal::apply(const Eigen::VectorXd& r, int threads, Eigen::VectorXd& y) const {
+void BlockDiagonal::apply(const Eigen::VectorXd& r, core::Crew& crew, Eigen::VectorXd& y) const {
   y.resize(r.size());
-  const auto groups = static_cast<Index>(start_.size()) - 1;
-#pragma omp parallel for num_threads(threads) schedule(static) if (threads > 1)
-  for (Index g = 0; g < groups; ++g) {
-    const auto i = static_cast<std::size_t>(g);
-    const Index first = start_[i], size = start_[i + 1] - first;
-    const double* const block = value_.data() + place_[i];
-    if (size == 3)
-      apply_block<3>(block, r, first, size, y);
-    else if (size == 6)
-      apply_block<6>(block, r, first, size, y);
-    else
-      apply_block<Eigen::Dynamic>(block, r, first, size, y);
-  }
+  crew.share_runs(start_.size() - 1, blocks_at_least, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t g = begin; g < end; ++g) {
+      const Index first = start_[g], size = start_[g + 1] - first;
+      const double* const block = value_.data() + place_[g];
+      if (size == 3)
+        apply_block<3>(block, r, first, size, y);
+      else if (size == 6)
+        apply_block<6>(block, r, first, size, y);
+      else
+        apply_block<Eigen::Dynamic>(block, r, first, size, y);
+    }
+  });
 }
 
 CompressedRows BlockDiagonal::as_matrix() const {

@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "osculate/core/crew.hpp"
 #include "osculate/la/aggregates.hpp"
 
 namespace osculate::la {
@@ -13,9 +14,9 @@ namespace osculate::la {
 class BlockDiagonal {
  public:
   BlockDiagonal() = default;
-  BlockDiagonal(const CompressedRows& a, const GroupStarts& start);
+  BlockDiagonal(const CompressedRows& a, const GroupStarts& start, core::Crew& crew);
   /// y = D^-1 r
-  void apply(const Eigen::VectorXd& r, int threads, Eigen::VectorXd& y) const;
+  void apply(const Eigen::VectorXd& r, core::Crew& crew, Eigen::VectorXd& y) const;
   [[nodiscard]] CompressedRows as_matrix() const;
 
  private:

@@ -1,26 +1,30 @@
 #include "osculate/la/compressed_rows.hpp"
 
 #include <algorithm>
-#include <cstdint>
+#include <atomic>
 #include <limits>
 #include <new>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace osculate::la {
 
-void multiply(const CompressedRows& a, const Eigen::VectorXd& x, int threads, Eigen::VectorXd& y) {
+void multiply(const CompressedRows& a, const Eigen::VectorXd& x, core::Crew& crew,
+              Eigen::VectorXd& y) {
+  constexpr std::size_t worth_it = 500;
   y.resize(a.rows());
   const Index* const start = a.outerIndexPtr();
   const Index* const column = a.innerIndexPtr();
   const double* const value = a.valuePtr();
-  const auto rows = static_cast<Index>(a.rows());
-#pragma omp parallel for num_threads(threads) schedule(static) if (threads > 1)
-  for (Index i = 0; i < rows; ++i) {
-    double sum = 0;
-    for (Index e = start[i]; e < start[i + 1]; ++e) sum += value[e] * x[column[e]];
-    y[i] = sum;
-  }
+  const std::size_t rows = as_size(static_cast<Index>(a.rows()));
+  crew.share_runs(rows, worth_it, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      double sum = 0;
+      for (Index e = start[i]; e < start[i + 1]; ++e) sum += value[e] * x[column[e]];
+      y[static_cast<Index>(i)] = sum;
+    }
+  });
 }
 
 void compress(const SparseMatrix& k, Symmetry symmetry, CompressedRows& a) {
@@ -54,41 +58,116 @@ SparseMatrix stored(const CompressedRows& a) {
   return k;
 }
 
-/// In pieces, for several threads and since a product by Eigen is three times in memory at its end;
-/// the bits are those of one piece.
-CompressedRows product(const CompressedRows& a, const CompressedRows& b, int threads) {
-  const auto rows = static_cast<Index>(a.rows());
-  const Index pieces = std::min<Index>(rows, 8 * static_cast<Index>(threads));
-  if (pieces < 2) return a * b;
-  std::vector<CompressedRows> piece(as_size(pieces));
-  const auto begin = [&](Index p) {
-    return static_cast<Index>(static_cast<std::int64_t>(rows) * p / pieces);
-  };
-  int without_room = 0;  // an exception must not leave the loop
-#pragma omp parallel for num_threads(threads) schedule(dynamic) reduction(+ : without_room) if (threads > 1)
-  for (Index p = 0; p < pieces; ++p) try {
-      piece[as_size(p)] = a.middleRows(begin(p), begin(p + 1) - begin(p)) * b;
-    } catch (const std::bad_alloc&) {
-      ++without_room;
+namespace {
+
+/// Consecutive columns of a row.
+struct Run {
+  Index column, count, value;  ///< the last: where the values begin
+};
+
+struct Runs {
+  std::vector<Run> run;
+  std::vector<std::size_t> of_row{0};
+
+  explicit Runs(const CompressedRows& b) {
+    for (Index i = 0; i < b.rows(); ++i) {
+      for (Index e = b.outerIndexPtr()[i]; e < b.outerIndexPtr()[i + 1]; ++e) {
+        const Index column = b.innerIndexPtr()[e];
+        if (run.size() > of_row.back() && run.back().column + run.back().count == column)
+          ++run.back().count;
+        else
+          run.push_back({column, 1, e});
+      }
+      of_row.push_back(run.size());
     }
-  std::int64_t entries = 0;
-  for (const CompressedRows& part : piece) entries += part.nonZeros();
-  if (without_room > 0 || entries > std::numeric_limits<Index>::max())
+  }
+};
+
+/// Some rows of a product.
+struct Rows {
+  std::vector<Index> end, column;  ///< of each row, and of each entry
+  std::vector<double> value;
+};
+
+/// A sum of rows that knows in which blocks of columns it is not zero.
+class SumOfRows {
+ public:
+  explicit SumOfRows(Index columns)
+      : sum_(as_size(columns / size + 1) * size, 0.0), met_(as_size(columns / size + 1), 0) {}
+  void add(double factor, const Run& run, const double* values) {
+    double* const to = sum_.data() + run.column;
+    const double* const from = values + run.value;
+    Index c = 0;
+    using OfNode = Eigen::Matrix<double, 6, 1>;  // no loop is left to the compiler
+    for (; c + 6 <= run.count; c += 6)
+      Eigen::Map<OfNode>(to + c) += factor * Eigen::Map<const OfNode>(from + c);
+    for (; c < run.count; ++c) to[c] += factor * from[c];
+    for (Index b = run.column / size; b <= (run.column + run.count - 1) / size; ++b)
+      if (std::exchange(met_[as_size(b)], 1) == 0) blocks_.push_back(b);
+  }
+  /// Takes what is not zero, and begins with the next one.
+  void take(Rows& out) {
+    std::ranges::sort(blocks_);
+    for (const Index b : blocks_) {
+      met_[as_size(b)] = 0;
+      for (Index c = b * size; c < (b + 1) * size; ++c)
+        if (const double value = std::exchange(sum_[as_size(c)], 0.0); value != 0) {
+          out.column.push_back(c);
+          out.value.push_back(value);
+        }
+    }
+    blocks_.clear();
+    out.end.push_back(static_cast<Index>(out.column.size()));
+  }
+
+ private:
+  static constexpr Index size = 8;
+  std::vector<double> sum_;
+  std::vector<char> met_;
+  std::vector<Index> blocks_;
+};
+
+}  // namespace
+
+/// Row by row, where columns of `b` come in runs, as those of a coarser model's nodes do. In pieces
+/// for several threads; the bits are those of one piece.
+CompressedRows product(const CompressedRows& a, const CompressedRows& b, core::Crew& crew) {
+  const auto rows = static_cast<Index>(a.rows());
+  const std::size_t pieces = as_size(std::min<Index>(rows, 8 * crew.threads()));
+  const auto begin = [&](std::size_t p) {
+    return static_cast<Index>(as_size(rows) * p / std::max<std::size_t>(pieces, 1));
+  };
+  const Runs runs(b);
+  std::vector<Rows> piece(pieces);
+  std::atomic<bool> without_room{false};
+  crew.share(pieces, [&](std::size_t p) {
+    try {
+      SumOfRows sum(static_cast<Index>(b.cols()));
+      for (Index i = begin(p); i < begin(p + 1); ++i) {
+        for (CompressedRows::InnerIterator entry(a, i); entry; ++entry)
+          for (std::size_t r = runs.of_row[as_size(static_cast<Index>(entry.col()))];
+               r < runs.of_row[as_size(static_cast<Index>(entry.col())) + 1]; ++r)
+            sum.add(entry.value(), runs.run[r], b.valuePtr());
+        sum.take(piece[p]);
+      }
+    } catch (const std::bad_alloc&) {
+      without_room = true;
+    }
+  });
+  std::size_t entries = 0;
+  for (const Rows& part : piece) entries += part.value.size();
+  if (without_room || entries > as_size(std::numeric_limits<Index>::max()))
     throw NotEnoughMemory("not enough memory for a product of matrices");
   CompressedRows out(rows, b.cols());
   out.resizeNonZeros(static_cast<Index>(entries));
   Index row = 0, next = 0;
-  for (CompressedRows& part : piece) {
-    part.makeCompressed();
-    const auto count = static_cast<Index>(part.nonZeros());
-    std::copy_n(part.innerIndexPtr(), count, out.innerIndexPtr() + next);
-    std::copy_n(part.valuePtr(), count, out.valuePtr() + next);
-    for (Index i = 0; i < part.rows(); ++i)
-      out.outerIndexPtr()[row++] = next + part.outerIndexPtr()[i];
-    next += count;
-    release(part);
+  for (Rows& part : piece) {
+    std::ranges::copy(part.column, out.innerIndexPtr() + next);
+    std::ranges::copy(part.value, out.valuePtr() + next);
+    for (const Index end : part.end) out.outerIndexPtr()[++row] = next + end;
+    next += static_cast<Index>(part.value.size());
+    part = {};
   }
-  out.outerIndexPtr()[rows] = next;
   return out;
 }
 

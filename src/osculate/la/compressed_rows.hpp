@@ -2,6 +2,7 @@
 #include <Eigen/SparseCore>
 #include <cstddef>
 
+#include "osculate/core/crew.hpp"
 #include "osculate/la/linear_solver.hpp"
 
 namespace osculate::la {
@@ -40,8 +41,10 @@ void compress(const SparseMatrix& k, Symmetry symmetry, CompressedRows& a);
 [[nodiscard]] SparseMatrix stored(const CompressedRows& a);
 
 /// y = A x, row by row with several threads: the bits do not depend on their number.
-void multiply(const CompressedRows& a, const Eigen::VectorXd& x, int threads, Eigen::VectorXd& y);
+void multiply(const CompressedRows& a, const Eigen::VectorXd& x, core::Crew& crew,
+              Eigen::VectorXd& y);
 /// A B, likewise.
-[[nodiscard]] CompressedRows product(const CompressedRows& a, const CompressedRows& b, int threads);
+[[nodiscard]] CompressedRows product(const CompressedRows& a, const CompressedRows& b,
+                                     core::Crew& crew);
 
 }  // namespace osculate::la

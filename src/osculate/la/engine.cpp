@@ -75,12 +75,81 @@ Eigen::MatrixXd own_motions(const CompressedRows& a, const Places& places, const
   return motions;
 }
 
+/// Whether factors of A will do for a preconditioner of B, which may have other places for entries:
+/// in the measure of the rows' largest entries no row has changed by more than that, and no entry
+/// of the diagonal has lost half of itself.
+///
+/// Formula    sum_j |A_ij - B_ij| / (s_i s_j) <= 1 , B_ii >= A_ii / 2 , s_i^2 the largest entry of
+///            row i of A
+bool alike(const SparseMatrix& a, const SparseMatrix& b) {
+  constexpr double most = 1, left = 0.5;
+  if (a.n != b.n) return false;
+  Eigen::VectorXd scale = Eigen::VectorXd::Zero(a.n), row = scale;
+  const auto each = [](const SparseMatrix& of, Index i, const auto& take) {
+    for (Index e = of.row_start[as_size(i)]; e < of.row_start[as_size(i) + 1]; ++e)
+      take(of.column[as_size(e)], of.value[as_size(e)]);
+  };
+  for (Index i = 0; i < a.n; ++i)
+    each(a, i, [&](Index, double v) { scale[i] = std::max(scale[i], std::abs(v)); });
+  if (a.ranks) a.ranks->largest({scale.data(), as_size(a.n)});
+  for (double& s : scale) s = s > 0 ? std::sqrt(s) : 1.0;
+  bool same = true;
+  for (Index i = 0; i < a.n; ++i) {
+    double change = 0;
+    const auto take = [&](Index j, double) {
+      change += std::abs(row[j]) / scale[j];
+      row[j] = 0;
+    };
+    each(a, i, [&](Index j, double v) { row[j] = v; });
+    const double before = row[i];
+    each(b, i, [&](Index j, double v) { row[j] -= v; });
+    same = same && row[i] <= (1 - left) * std::abs(before);
+    each(a, i, take);
+    each(b, i, take);
+    same = same && change <= most * scale[i];
+  }
+  return same;
+}
+
 /// What is solved for directly: rows and columns of the matrix that are of contact.
 class Exact {
  public:
-  /// False: singular.
+  /// `may_keep`: factors of an earlier matrix serve on where that was alike. False: singular.
   bool factor(const CompressedRows& a, const Places& places, const Part& part, Symmetry symmetry,
-              const MumpsOptions& options) {
+              const MumpsOptions& options, bool may_keep) {
+    kept_ = false;
+    take_columns(a, places, part);
+    if (unknowns_.empty()) return true;
+    SparseMatrix few = few_rows(part);
+    kept_ = may_keep && direct_ && symmetry == symmetry_ && alike(factored_, few);
+    if (ranks_) kept_ = ranks_->all(kept_);
+    if (kept_) return true;
+    if (!direct_) direct_ = std::make_unique<DealtMumps>(options);
+    factored_ = std::move(few);
+    symmetry_ = symmetry;
+    return direct_->factor(factored_, 0, symmetry).status == SolveStatus::ok;
+  }
+  [[nodiscard]] bool kept() const { return kept_; }
+  [[nodiscard]] bool any() const { return !unknowns_.empty(); }
+  /// K_cc^-1 r_c , of all of them; false: it cannot be.
+  bool solve(const Eigen::VectorXd& own, Eigen::VectorXd& few) {
+    few = Eigen::VectorXd::Constant(static_cast<Index>(unknowns_.size()), core::Ranks::nothing);
+    for (const auto& [i, j] : own_) few[j] = own[i];
+    if (ranks_) ranks_->sum({few.data(), unknowns_.size()});
+    return direct_->solve_once(few) == SolveStatus::ok;
+  }
+  /// What they are balanced by, of own rows.
+  void balance(const Eigen::VectorXd& few, core::Crew& crew, Eigen::VectorXd& own) const {
+    Eigen::VectorXd balanced;
+    multiply(columns_, few, crew, balanced);
+    own -= balanced;
+  }
+  void add(const Eigen::VectorXd& few, Eigen::VectorXd& own) const {
+    for (const auto& [i, j] : own_) own[i] += few[j];
+  }
+
+ private:
+  void take_columns(const CompressedRows& a, const Places& places, const Part& part) {
     unknowns_.clear();
     own_.clear();
     std::vector<Index> position(places.node.size(), -1);
@@ -89,7 +158,7 @@ class Exact {
         position[u] = static_cast<Index>(unknowns_.size());
         unknowns_.push_back(static_cast<Index>(u));
       }
-    if (unknowns_.empty()) return true;
+    if (unknowns_.empty()) return;
     for (Index i = 0; i < a.rows(); ++i)
       if (const Index j = position[as_size(part.unknown(i))]; j >= 0) own_.push_back({i, j});
     ranks_ = part.dealt.ranks;
@@ -101,28 +170,7 @@ class Exact {
           entries.emplace_back(i, j, entry.value());
     columns_.resize(static_cast<Index>(a.rows()), static_cast<Index>(unknowns_.size()));
     columns_.setFromTriplets(entries.begin(), entries.end());
-    direct_ = std::make_unique<DealtMumps>(options);
-    return direct_->factor(few_rows(part), 0, symmetry).status == SolveStatus::ok;
   }
-  [[nodiscard]] bool any() const { return !unknowns_.empty(); }
-  /// K_cc^-1 r_c , of all of them; false: it cannot be.
-  bool solve(const Eigen::VectorXd& own, Eigen::VectorXd& few) {
-    few = Eigen::VectorXd::Constant(static_cast<Index>(unknowns_.size()), core::Ranks::nothing);
-    for (const auto& [i, j] : own_) few[j] = own[i];
-    if (ranks_) ranks_->sum({few.data(), unknowns_.size()});
-    return direct_->solve(few) == SolveStatus::ok;
-  }
-  /// What they are balanced by, of own rows.
-  void balance(const Eigen::VectorXd& few, int threads, Eigen::VectorXd& own) const {
-    Eigen::VectorXd balanced;
-    multiply(columns_, few, threads, balanced);
-    own -= balanced;
-  }
-  void add(const Eigen::VectorXd& few, Eigen::VectorXd& own) const {
-    for (const auto& [i, j] : own_) own[i] += few[j];
-  }
-
- private:
   [[nodiscard]] SparseMatrix few_rows(const Part& part) const {
     SparseMatrix few;
     few.n = static_cast<Index>(unknowns_.size());
@@ -146,6 +194,9 @@ class Exact {
   const core::Ranks* ranks_ = nullptr;
   CompressedRows columns_;
   std::unique_ptr<DealtMumps> direct_;
+  SparseMatrix factored_;
+  bool kept_ = false;  ///< by the last `factor`
+  Symmetry symmetry_ = Symmetry::unsymmetric;
 };
 
 class MultigridEngine final : public Engine {
@@ -154,6 +205,7 @@ class MultigridEngine final : public Engine {
 
   bool build(const SparseMatrix& k, Symmetry symmetry, const Places& places) override {
     a_ = {};
+    bodies_.reset();
     part_ = {};
     part_.dealt = dealt_as(k);
     if (!build(take_part(k, symmetry), symmetry, places)) return false;
@@ -161,23 +213,25 @@ class MultigridEngine final : public Engine {
     return true;
   }
   bool refresh(const SparseMatrix& k, Symmetry symmetry, const Places& places) override {
-    threads_ = places.threads;
+    call_crew(places.threads);
     symmetry_ = symmetry;
     if (!bodies_ || !deals(part_.dealt, k)) return false;
     a_ = {};
     const CompressedRows a = take_part(k, symmetry);
     take(a, places);
-    return bodies_->refresh(a, part_.halo) && exact_.factor(a, places, part_, symmetry, direct_);
+    return bodies_->refresh(a, part_.halo) &&
+           exact_.factor(a, places, part_, symmetry, direct_, true);
   }
+  [[nodiscard]] bool keeps_factors() const override { return exact_.kept(); }
   bool build_again(const Places& places) override { return build(a_.as_rows(), symmetry_, places); }
   Nearby solve(const PreconditionedLimits& limits, Eigen::VectorXd& rhs) override {
     PreconditionedSolutions by(
         [this](const Eigen::VectorXd& x, Eigen::VectorXd& y) {
-          if (!part_.dealt.ranks) return a_.multiply(x, threads_, y);
+          if (!part_.dealt.ranks) return a_.multiply(x, *crew_, y);
           Eigen::VectorXd here = x;
           here.conservativeResize(part_.halo.here());
           part_.halo.update(here);
-          a_.multiply(here, threads_, y);
+          a_.multiply(here, *crew_, y);
         },
         [this](Eigen::VectorXd& r) { return precondition(r); }, part_.dealt.ranks);
     Eigen::VectorXd own = part_.own(rhs);
@@ -191,6 +245,11 @@ class MultigridEngine final : public Engine {
   }
 
  private:
+  void call_crew(int threads) {
+    if (crew_ && crew_->threads() == threads) return;
+    bodies_.reset();
+    crew_ = std::make_unique<core::Crew>(threads);
+  }
   /// Rows of this process with columns here.
   CompressedRows take_part(const SparseMatrix& k, Symmetry symmetry) {
     RowsHere rows = rows_here(k, symmetry, part_.dealt);
@@ -201,34 +260,34 @@ class MultigridEngine final : public Engine {
     return taken(rows.a);
   }
   bool build(CompressedRows&& a, Symmetry symmetry, const Places& places) {
-    threads_ = places.threads;
+    call_crew(places.threads);
     symmetry_ = symmetry;
-    if (!exact_.factor(a, places, part_, symmetry, direct_)) return false;
-    bodies_ = std::make_unique<Multigrid>(threads_);
+    if (!exact_.factor(a, places, part_, symmetry, direct_, false)) return false;
+    bodies_ = std::make_unique<Multigrid>(*crew_);
     Eigen::MatrixXd motions = own_motions(a, places, part_);
     return bodies_->build(std::move(a), part_.halo, groups_of(places, part_), std::move(motions));
   }
   void take(const CompressedRows& a, const Places& places) {
-    a_ = GroupedRows<double>(a, groups_of(places, part_));
+    a_ = GroupedRows<double>(a, groups_of(places, part_), *crew_);
     diagonal_ = part_.all(Eigen::VectorXd(a.diagonal()).cwiseAbs());
   }
   bool precondition(Eigen::VectorXd& own) {
     Eigen::VectorXd few;
     if (exact_.any() && !exact_.solve(own, few)) return false;
-    if (exact_.any()) exact_.balance(few, threads_, own);
+    if (exact_.any()) exact_.balance(few, *crew_, own);
     if (!bodies_->apply(own)) return false;
     if (exact_.any()) exact_.add(few, own);
     return true;
   }
 
   MumpsOptions direct_;
+  std::unique_ptr<core::Crew> crew_;  ///< outlives `bodies_`
   Part part_;
   GroupedRows<double> a_;
   Eigen::VectorXd diagonal_;
   std::unique_ptr<Multigrid> bodies_;
   Exact exact_;
   Symmetry symmetry_ = Symmetry::unsymmetric;
-  int threads_ = 1;
 };
 
 }  // namespace

@@ -10,8 +10,8 @@ namespace osculate::la {
 
 /// What goes through the iterations of la::Iterative, which decides when, and what to believe.
 ///
-/// Contract   the bits of a solution depend on the matrix, the places, and the matrix of the last
-///            `build` alone (and on how rows are dealt out to processes)
+/// Contract   the bits of a solution depend on the matrix, the places, and the matrices since the
+///            last `build` alone (and on how rows are dealt out to processes)
 class Engine {
  public:
   Engine() = default;
@@ -21,9 +21,12 @@ class Engine {
 
   /// Prepares for a matrix. False: it cannot be, as where a body is free to move.
   virtual bool build(const SparseMatrix& k, Symmetry symmetry, const Places& places) = 0;
-  /// Prepares for a matrix of the same unknowns with the coarser models of the last one built; what
-  /// is exact is its own. False: it has to be built.
+  /// Prepares for a matrix of the same unknowns with the coarser models of the last one built. What
+  /// is exact has its own factors, or those of an earlier matrix that was alike there. False: it
+  /// has to be built.
   virtual bool refresh(const SparseMatrix& k, Symmetry symmetry, const Places& places) = 0;
+  /// Whether the last `refresh` found factors that serve on.
+  [[nodiscard]] virtual bool keeps_factors() const = 0;
   /// Prepares anew for the matrix of the last `refresh`.
   virtual bool build_again(const Places& places) = 0;
   /// Returns    as PreconditionedSolutions

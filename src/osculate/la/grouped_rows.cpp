@@ -10,6 +10,8 @@
 namespace osculate::la {
 namespace {
 
+constexpr std::size_t groups_at_least = 64;  // groups, while a thread is told of them
+
 /// By which the largest entry becomes a number near one; of double precision nothing is changed.
 template <class Value>
 double scale_of(const CompressedRows& a) {
@@ -53,12 +55,15 @@ void sum_up_any(Index rows, const Value* values, std::pair<const Run*, const Run
 }  // namespace
 
 template <class Value>
-GroupedRows<Value>::GroupedRows(const CompressedRows& a, GroupStarts groups)
+GroupedRows<Value>::GroupedRows(const CompressedRows& a, GroupStarts groups, core::Crew& crew)
     : groups_(std::move(groups)),
       columns_(static_cast<Index>(a.cols())),
       scale_(scale_of<Value>(a)) {
   find_columns(a);
-  fill(a);
+  values_.assign(first_value_.back(), Value{0});
+  crew.share_runs(groups_.size() - 1, groups_at_least, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t g = begin; g < end; ++g) fill(a, g);
+  });
 }
 
 /// The columns of a group are those of any of its rows.
@@ -86,54 +91,50 @@ void GroupedRows<Value>::find_columns(const CompressedRows& a) {
 }
 
 template <class Value>
-void GroupedRows<Value>::fill(const CompressedRows& a) {
-  values_.assign(first_value_.back(), Value{0});
-  for (std::size_t g = 0; g + 1 < groups_.size(); ++g)
-    for (Index i = 0; i < size_of(g); ++i) {
-      Value* value = values_.data() + first_value_[g] + i;
-      const Run* run = runs_.data() + first_run_[g];
-      Index passed = 0;  // columns of the run
-      for (CompressedRows::InnerIterator entry(a, groups_[g] + i); entry; ++entry) {
-        while (run->first + run->count <= entry.col()) {
-          value += static_cast<std::ptrdiff_t>(size_of(g)) * (run->count - passed);
-          passed = 0;
-          ++run;
-        }
-        value += static_cast<std::ptrdiff_t>(size_of(g)) * (entry.col() - run->first - passed);
-        passed = static_cast<Index>(entry.col()) - run->first;
-        *value = static_cast<Value>(scale_ * entry.value());
+void GroupedRows<Value>::fill(const CompressedRows& a, std::size_t g) {
+  for (Index i = 0; i < size_of(g); ++i) {
+    Value* value = values_.data() + first_value_[g] + i;
+    const Run* run = runs_.data() + first_run_[g];
+    Index passed = 0;  // columns of the run
+    for (CompressedRows::InnerIterator entry(a, groups_[g] + i); entry; ++entry) {
+      while (run->first + run->count <= entry.col()) {
+        value += static_cast<std::ptrdiff_t>(size_of(g)) * (run->count - passed);
+        passed = 0;
+        ++run;
       }
+      value += static_cast<std::ptrdiff_t>(size_of(g)) * (entry.col() - run->first - passed);
+      passed = static_cast<Index>(entry.col()) - run->first;
+      *value = static_cast<Value>(scale_ * entry.value());
     }
+  }
 }
 
 template <class Value>
-void GroupedRows<Value>::multiply(const Eigen::VectorXd& x, int threads, Eigen::VectorXd& y) const {
-  y.resize(groups_.back());
+void GroupedRows<Value>::multiply(std::size_t g, const double* x, double* y) const {
   const double back = 1 / scale_;
-  const auto groups = static_cast<Index>(groups_.size()) - 1;
-#pragma omp parallel for num_threads(threads) schedule(static) if (threads > 1)
-  for (Index i = 0; i < groups; ++i) {
-    const std::size_t g = as_size(i);
-    const std::pair runs{runs_.data() + first_run_[g], runs_.data() + first_run_[g + 1]};
-    const Value* const values = values_.data() + first_value_[g];
-    double* const to = y.data() + groups_[g];
-    switch (const Index size = size_of(g)) {
-      case 1:
-        sum_up(values, runs, x.data(), back, to, std::make_index_sequence<1>{});
-        break;
-      case 2:
-        sum_up(values, runs, x.data(), back, to, std::make_index_sequence<2>{});
-        break;
-      case 3:
-        sum_up(values, runs, x.data(), back, to, std::make_index_sequence<3>{});
-        break;
-      case 6:
-        sum_up(values, runs, x.data(), back, to, std::make_index_sequence<6>{});
-        break;
-      default:
-        sum_up_any(size, values, runs, x.data(), back, to);
-    }
+  const std::pair runs{runs_.data() + first_run_[g], runs_.data() + first_run_[g + 1]};
+  const Value* const values = values_.data() + first_value_[g];
+  switch (const Index size = size_of(g)) {
+    case 1:
+      return sum_up(values, runs, x, back, y, std::make_index_sequence<1>{});
+    case 2:
+      return sum_up(values, runs, x, back, y, std::make_index_sequence<2>{});
+    case 3:
+      return sum_up(values, runs, x, back, y, std::make_index_sequence<3>{});
+    case 6:
+      return sum_up(values, runs, x, back, y, std::make_index_sequence<6>{});
+    default:
+      sum_up_any(size, values, runs, x, back, y);
   }
+}
+
+template <class Value>
+void GroupedRows<Value>::multiply(const Eigen::VectorXd& x, core::Crew& crew,
+                                  Eigen::VectorXd& y) const {
+  y.resize(groups_.back());
+  crew.share_runs(groups_.size() - 1, groups_at_least, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t g = begin; g < end; ++g) multiply(g, x.data(), y.data() + groups_[g]);
+  });
 }
 
 template <class Value>

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "osculate/core/crew.hpp"
 #include "osculate/la/aggregates.hpp"
 
 namespace osculate::la {
@@ -20,8 +21,8 @@ template <class Value>
 class GroupedRows {
  public:
   GroupedRows() = default;
-  GroupedRows(const CompressedRows& a, GroupStarts groups);
-  void multiply(const Eigen::VectorXd& x, int threads, Eigen::VectorXd& y) const;
+  GroupedRows(const CompressedRows& a, GroupStarts groups, core::Crew& crew);
+  void multiply(const Eigen::VectorXd& x, core::Crew& crew, Eigen::VectorXd& y) const;
   /// Entries that are not zero, and those of the diagonal.
   [[nodiscard]] CompressedRows as_rows() const;
   [[nodiscard]] std::size_t entries() const { return values_.size(); }
@@ -33,8 +34,9 @@ class GroupedRows {
   [[nodiscard]] Index size_of(std::size_t group) const {
     return groups_[group + 1] - groups_[group];
   }
+  void multiply(std::size_t group, const double* x, double* y_of_group) const;
   void find_columns(const CompressedRows& a);
-  void fill(const CompressedRows& a);
+  void fill(const CompressedRows& a, std::size_t group);
 
   GroupStarts groups_{0};
   Index columns_ = 0;

@@ -67,7 +67,7 @@ bool Iterative::Impl::begin_build() {
 /// False: the direct solver is to look at the matrix.
 bool Iterative::Impl::build(const SparseMatrix& k) {
   const bool believes = begin_build();
-  engine = make_multigrid_engine(options);
+  if (!engine) engine = make_multigrid_engine(options);
   return engine->build(k, symmetry, places) && (believes || resists_all());
 }
 
@@ -209,6 +209,7 @@ FactorReport Iterative::factor(const SparseMatrix& k, std::uint64_t pattern_vers
   if (s.by_multigrid) {
     FactorReport report;
     report.whole = false;
+    report.kept = again && s.engine->keeps_factors();
     return report;
   }
   ++s.work.given_up;

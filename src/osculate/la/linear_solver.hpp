@@ -44,6 +44,7 @@ struct FactorReport {
   /// False: only what may change was factored. The rest had been eliminated before, or is iterated
   /// on.
   bool whole = true;
+  bool kept = false;      ///< nothing was factored: factors of an earlier matrix serve on
   double operations = 0;  ///< of the factorisation, where it is worth to do without it; else 0
 };
 

@@ -25,21 +25,21 @@ struct Level {
   Eigen::VectorXd r, d, t, of_coarse;
 
   /// What the smoother needs; false: there are no numbers.
-  bool prepare_smoother(const CompressedRows& matrix, int threads);
-  void find_largest(int threads);
-  void smooth(Eigen::VectorXd& solution, bool residual_wanted, int threads);
+  bool prepare_smoother(const CompressedRows& matrix, core::Crew& crew);
+  void find_largest(core::Crew& crew);
+  void smooth(Eigen::VectorXd& solution, bool residual_wanted, core::Crew& crew);
 };
 
-bool Level::prepare_smoother(const CompressedRows& matrix, int threads) {
+bool Level::prepare_smoother(const CompressedRows& matrix, core::Crew& crew) {
   products = {};  // gives its memory back before
-  products = GroupedRows<float>(matrix, start);
-  inverse = BlockDiagonal(matrix, start);
-  find_largest(threads);
+  products = GroupedRows<float>(matrix, start, crew);
+  inverse = BlockDiagonal(matrix, start, crew);
+  find_largest(crew);
   return largest > 0 && std::isfinite(largest);
 }
 
 /// By the power method from noise; a little more than it finds.
-void Level::find_largest(int threads) {
+void Level::find_largest(core::Crew& crew) {
   constexpr int rounds = 15;
   constexpr double more = 1.05;
   Eigen::VectorXd v(halo.own()), w;
@@ -54,33 +54,33 @@ void Level::find_largest(int threads) {
     v /= size;
     v.conservativeResize(halo.here());
     halo.update(v);
-    products.multiply(v, threads, w);
-    inverse.apply(w, threads, v);
+    products.multiply(v, crew, w);
+    inverse.apply(w, crew, v);
     largest = more * halo.norm(v);
   }
 }
 
 /// Adds to the solution what a Chebyshev polynomial of D^-1 A makes of its residual `r`, which is
 /// brought up to date where it is wanted. Both are of own unknowns.
-void Level::smooth(Eigen::VectorXd& solution, bool residual_wanted, int threads) {
+void Level::smooth(Eigen::VectorXd& solution, bool residual_wanted, core::Crew& crew) {
   constexpr int degree = 2;
   constexpr double above = 1.1, part = 10;  // of the spectrum, from the top
   const double high = above * largest, low = high / part;
   const double middle = 0.5 * (high + low), half = 0.5 * (high - low), sigma = middle / half;
   double rho = 1 / sigma;
   const Index own = halo.own();
-  inverse.apply(r, threads, t);
+  inverse.apply(r, crew, t);
   d.resize(halo.here());
   d.head(own) = t / middle;
   for (int i = 1;; ++i) {
     solution += d.head(own);
     if (i == degree && !residual_wanted) return;
     halo.update(d);
-    products.multiply(d, threads, t);
+    products.multiply(d, crew, t);
     r -= t;
     if (i == degree) return;
     const double next = 1 / (2 * sigma - rho);
-    inverse.apply(r, threads, t);
+    inverse.apply(r, crew, t);
     d.head(own) = next * rho * d.head(own) + (2 * next / half) * t;
     rho = next;
   }
@@ -168,10 +168,12 @@ std::vector<char> left_out(const Level& level) {
 }  // namespace
 
 struct Multigrid::Impl {
-  int threads = 1;
+  core::Crew& crew;
   std::vector<std::unique_ptr<Level>> levels{};
   std::unique_ptr<Mumps> coarsest{};  ///< on every process
   double entries = 0, finest_entries = 1;
+
+  explicit Impl(core::Crew& of) : crew(of) {}
 
   bool coarsen();
   bool cycle(std::size_t level, const Eigen::VectorXd& b, Eigen::VectorXd& x);
@@ -183,8 +185,8 @@ bool Multigrid::Impl::coarsen() {
   Level& fine = *levels.back();
   const core::Ranks* const ranks = fine.halo.ranks();
   const auto times_a = [&](const CompressedRows& b) {
-    return ranks ? product(fine.a, with_rows_of_others(b, fine.halo), threads)
-                 : product(fine.a, b, threads);
+    return ranks ? product(fine.a, with_rows_of_others(b, fine.halo), crew)
+                 : product(fine.a, b, crew);
   };
   const Aggregates aggregates = aggregate(fine.a, fine.start, left_out(fine), strength);
   Tentative next = tentative(fine, aggregates);
@@ -195,7 +197,7 @@ bool Multigrid::Impl::coarsen() {
   if (ranks) put_everywhere(next.p, first[static_cast<std::size_t>(ranks->rank())], unknowns);
   {
     const CompressedRows spread = times_a(next.p);
-    const CompressedRows scaled = product(fine.inverse.as_matrix(), spread, threads);
+    const CompressedRows scaled = product(fine.inverse.as_matrix(), spread, crew);
     next.p = next.p - (damping / fine.largest) * scaled;
     next.p.makeCompressed();
   }
@@ -204,15 +206,15 @@ bool Multigrid::Impl::coarsen() {
     CompressedRows spread = times_a(next.p);
     release(fine.a);
     const CompressedRows transposed = next.p.transpose();
-    CompressedRows all = product(transposed, spread, threads);
+    CompressedRows all = product(transposed, spread, crew);
     release(spread);
     CompressedRows a = summed_up(all, ranks, first);
     coarse->halo = halo_of(ranks, first, {&a, &next.p});
     with_columns_here(a, coarse->halo).swap(coarse->a);
   }
   const CompressedRows p = with_columns_here(next.p, coarse->halo);
-  fine.p = GroupedRows<float>(p, fine.start);
-  fine.transposed = GroupedRows<float>(p.transpose(), with_others(next.start, coarse->halo));
+  fine.p = GroupedRows<float>(p, fine.start, crew);
+  fine.transposed = GroupedRows<float>(p.transpose(), with_others(next.start, coarse->halo), crew);
   coarse->start = std::move(next.start);
   coarse->near_null = std::move(next.near_null);
   fine.near_null = {};
@@ -221,9 +223,7 @@ bool Multigrid::Impl::coarsen() {
   return true;
 }
 
-Multigrid::Multigrid(int threads) : impl_(std::make_unique<Impl>()) {
-  impl_->threads = std::max(1, threads);
-}
+Multigrid::Multigrid(core::Crew& crew) : impl_(std::make_unique<Impl>(crew)) {}
 Multigrid::~Multigrid() = default;
 
 bool Multigrid::build(CompressedRows&& a, Halo halo, GroupStarts groups,
@@ -240,7 +240,7 @@ bool Multigrid::build(CompressedRows&& a, Halo halo, GroupStarts groups,
   s.levels[0]->near_null = std::move(near_null);
   while (s.levels.back()->halo.everywhere() > coarsest && s.levels.size() < most_levels) {
     Level& last = *s.levels.back();
-    if (!last.prepare_smoother(last.a, s.threads)) return false;
+    if (!last.prepare_smoother(last.a, s.crew)) return false;
     if (!s.coarsen()) break;
   }
   const Halo& last = s.levels.back()->halo;
@@ -257,35 +257,35 @@ bool Multigrid::refresh(const CompressedRows& a, Halo halo) {
   const bool same = s.coarsest && s.levels.size() > 1 && s.levels[0]->start.back() == a.rows();
   if (!halo.all(same)) return false;
   s.levels[0]->halo = std::move(halo);
-  return s.levels[0]->prepare_smoother(a, s.threads);
+  return s.levels[0]->prepare_smoother(a, s.crew);
 }
 
 bool Multigrid::Impl::cycle(std::size_t level, const Eigen::VectorXd& b, Eigen::VectorXd& x) {
   Level& fine = *levels[level];
   if (level + 1 == levels.size()) {
     Eigen::VectorXd all = fine.halo.gathered(b);
-    if (coarsest->solve(all) != SolveStatus::ok) return false;
+    if (coarsest->solve_once(all) != SolveStatus::ok) return false;
     x = all.segment(fine.halo.begin(), fine.halo.own());
     return true;
   }
   const Halo& coarse = levels[level + 1]->halo;
   x.setZero(b.size());
   fine.r = b;
-  fine.smooth(x, true, threads);
+  fine.smooth(x, true, crew);
   Eigen::VectorXd rest;
-  fine.transposed.multiply(fine.r, threads, rest);
+  fine.transposed.multiply(fine.r, crew, rest);
   coarse.add_up(rest);
   rest.conservativeResize(coarse.own());
   if (!cycle(level + 1, rest, fine.of_coarse)) return false;
   fine.of_coarse.conservativeResize(coarse.here());
   coarse.update(fine.of_coarse);
-  fine.p.multiply(fine.of_coarse, threads, fine.d);
+  fine.p.multiply(fine.of_coarse, crew, fine.d);
   x += fine.d;
   fine.d.conservativeResize(fine.halo.here());
   fine.halo.update(fine.d);
-  fine.products.multiply(fine.d, threads, fine.t);
+  fine.products.multiply(fine.d, crew, fine.t);
   fine.r -= fine.t;
-  fine.smooth(x, false, threads);
+  fine.smooth(x, false, crew);
   return true;
 }
 

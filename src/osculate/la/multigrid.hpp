@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 #include <memory>
 
+#include "osculate/core/crew.hpp"
 #include "osculate/la/aggregates.hpp"
 #include "osculate/la/halo.hpp"
 
@@ -24,7 +25,7 @@ namespace osculate::la {
 /// Tested by  tests/unit/la/test_multigrid.cpp
 class Multigrid {
  public:
-  explicit Multigrid(int threads);
+  explicit Multigrid(core::Crew& crew);
   ~Multigrid();
   Multigrid(const Multigrid&) = delete;
   Multigrid& operator=(const Multigrid&) = delete;

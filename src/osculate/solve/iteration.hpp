@@ -153,6 +153,7 @@ struct NewtonResult {
   la::SolveStatus linear = la::SolveStatus::ok;
   Index bad_row = -1;
   bool whole_factors = true;  ///< of the last factorisation: la::FactorReport
+  bool kept_factors = false;  ///< likewise
   int negative_pivots = 0;    ///< likewise
   Precision precision{};
 };

@@ -213,7 +213,7 @@ bool conclude(Judge& judge, const Eigen::VectorXd& du, double step, double energ
   const bool by_residual = judge.options.residual > 0;
   IterationRecord record;
   record.step = step;
-  record.factored = former.fresh();
+  record.factored = former.fresh() && !result.kept_factors;
   record.whole = result.whole_factors;
   const double size = e.residual.norm();
   record.residual = relative_residual(result);

@@ -66,6 +66,7 @@ bool factor_tangent(S& system, la::LinearSolver& solver, NewtonResult<typename S
       report = solver.factor(system.matrix(), system.pattern_version(), system.symmetry());
   result.linear = report.status;
   result.whole_factors = report.whole;
+  result.kept_factors = report.kept;
   result.negative_pivots = report.negative_pivots;
   result.bad_row = report.bad_row;
   if (report.status == la::SolveStatus::singular)

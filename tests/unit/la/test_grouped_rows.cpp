@@ -33,13 +33,14 @@ Eigen::VectorXd values(Eigen::Index n) {
 const GroupStarts of_all_sizes{0, 3, 4, 6, 12, 12, 16, 21, 28, 31};
 
 TEST(GroupedRows, HaveTheBitsOfProductsRowByRow) {
+  core::Crew one(1), two(2);
   const CompressedRows a = irregular(of_all_sizes, 23);
   const Eigen::VectorXd x = values(23);
   Eigen::VectorXd expected, y, by_two;
-  multiply(a, x, 1, expected);
-  const GroupedRows<double> grouped(a, of_all_sizes);
-  grouped.multiply(x, 1, y);
-  grouped.multiply(x, 2, by_two);
+  multiply(a, x, one, expected);
+  const GroupedRows<double> grouped(a, of_all_sizes, one);
+  grouped.multiply(x, one, y);
+  grouped.multiply(x, two, by_two);
   EXPECT_EQ(y, expected);
   EXPECT_EQ(by_two, expected);
   EXPECT_GT(grouped.entries(), static_cast<std::size_t>(a.nonZeros()));
@@ -51,21 +52,23 @@ TEST(GroupedRows, GiveBackTheEntriesThatTheyWereMadeOf) {
   for (Index size = 0; groups.back() < block.unknowns(); size = (size + 1) % 7)
     groups.push_back(std::min(groups.back() + size, block.unknowns()));
   const CompressedRows a = compressed(block.matrix(), Symmetry::unsymmetric);
-  const CompressedRows again = GroupedRows<double>(a, groups).as_rows();
+  core::Crew crew(1);
+  const CompressedRows again = GroupedRows<double>(a, groups, crew).as_rows();
   EXPECT_EQ(Eigen::MatrixXd(again), Eigen::MatrixXd(a));
   EXPECT_EQ(again.nonZeros(), a.nonZeros());
 }
 
 TEST(GroupedRows, OfSinglePrecisionAreALinearMapNearToTheMatrix) {
+  core::Crew one(1);
   for (const double unit : {1.0, 1e60, 1e-60}) {  // beyond the range of float
     const CompressedRows a = unit * irregular(of_all_sizes, 23);
-    const GroupedRows<float> grouped(a, of_all_sizes);
+    const GroupedRows<float> grouped(a, of_all_sizes, one);
     const Eigen::VectorXd x = values(23), z = values(23).reverse();
     Eigen::VectorXd exact, ax, az, of_sum;
-    multiply(a, x, 1, exact);
-    grouped.multiply(x, 1, ax);
-    grouped.multiply(z, 1, az);
-    grouped.multiply(3 * x - z, 1, of_sum);
+    multiply(a, x, one, exact);
+    grouped.multiply(x, one, ax);
+    grouped.multiply(z, one, az);
+    grouped.multiply(3 * x - z, one, of_sum);
     const double size = Eigen::MatrixXd(a).norm() * x.norm();
     EXPECT_LT((ax - exact).norm(), std::ldexp(size, -24));
     EXPECT_GT((ax - exact).norm(), 0);

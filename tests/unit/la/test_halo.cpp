@@ -113,7 +113,8 @@ TEST_P(Halos, ProductsAreThoseOfAllRows) {
       const Here here(k, symmetry);
       Eigen::VectorXd x = here.own(x_), y;
       here.halo.update(x);
-      GroupedRows<double>(here.a, here.nodes()).multiply(x, 1, y);
+      core::Crew crew(1);
+      GroupedRows<double>(here.a, here.nodes(), crew).multiply(x, crew, y);
       const Eigen::VectorXd found = here.halo.gathered(y)(here.dealt.number);
       EXPECT_LT((found - expected).norm(), 1e-14 * expected.norm());
       const double length = here.halo.norm(x);
@@ -203,7 +204,8 @@ double rate(const SparseMatrix& k, const ElasticBlock& block, const CompressedRo
   Eigen::MatrixXd motions(here.halo.own(), 6);
   for (Index m = 0; m < 6; ++m)
     motions.col(m) = here.own(block.rigid_motions().col(m)).head(here.halo.own());
-  Multigrid cycle(1);
+  core::Crew crew(1);
+  Multigrid cycle(crew);
   EXPECT_TRUE(cycle.build(CompressedRows(here.a), here.halo, here.nodes(), motions));
   EXPECT_GE(cycle.levels(), levels);
   return rate(cycle, block, here, all);

@@ -101,6 +101,33 @@ TEST(Iterative, CoarserModelsServeForMatricesThatAreNear) {
   }
 }
 
+TEST(Iterative, FactorsOfContactServeUntilItHasChanged) {
+  Iterative solver;
+  solver.place(pressed(1, 0).places());
+  int first = 0;
+  const auto is_kept = [&](double stiff, double friction) {
+    const ElasticBlock block = pressed(stiff, friction);
+    const FactorReport report = solver.factor(block.matrix(), 1, Symmetry::unsymmetric);
+    EXPECT_FALSE(report.whole);
+    const int before = solver.work().iterations;
+    Eigen::VectorXd x = load(block);
+    EXPECT_EQ(solver.solve(x), SolveStatus::ok);
+    EXPECT_LE(relative_residual(block.matrix(), x, load(block)), 1.001e-10);
+    if (first == 0) first = solver.work().iterations - before;
+    EXPECT_LE(solver.work().iterations - before, 2 * first);
+    return report.kept;
+  };
+  EXPECT_FALSE(is_kept(1e3, 0));
+  EXPECT_TRUE(is_kept(1.3e3, 0));
+  EXPECT_TRUE(is_kept(1.3e3, 0.02)) << "entries in new places";
+  EXPECT_TRUE(is_kept(600, 0)) << "of what it was when it was factored";
+  EXPECT_FALSE(is_kept(400, 0));
+  EXPECT_FALSE(is_kept(1e5, 0.3));
+  EXPECT_FALSE(is_kept(1e2, 0.3)) << "changed by less than the row was";
+  solver.begin_anew();
+  EXPECT_FALSE(is_kept(1e2, 0.3));
+}
+
 TEST(Iterative, LeavesNoMoreThanIsAskedFor) {
   const ElasticBlock block = pressed(1e3, 0.3);
   Iterative solver;

@@ -108,9 +108,10 @@ TEST(BlockDiagonal, InvertsBlocksAndLeavesOutThoseThatAreNotPositiveDefinite) {
   a.insert(5, 4) = 1;
   a.insert(5, 5) = 1;
   a.makeCompressed();
-  const BlockDiagonal inverse(a, {0, 2, 3, 4, 6});
+  core::Crew crew(1);
+  const BlockDiagonal inverse(a, {0, 2, 3, 4, 6}, crew);
   Eigen::VectorXd y;
-  inverse.apply(Eigen::VectorXd::Ones(6), 1, y);
+  inverse.apply(Eigen::VectorXd::Ones(6), crew, y);
   Eigen::VectorXd expected = Eigen::VectorXd::Zero(6);
   expected.head<2>() << 2.0 / 11, 3.0 / 11;
   EXPECT_LT((y - expected).norm(), 1e-15);
@@ -118,9 +119,10 @@ TEST(BlockDiagonal, InvertsBlocksAndLeavesOutThoseThatAreNotPositiveDefinite) {
 }
 
 /// What is left of an error after one cycle, in the norm of the energy, at most: by iterations.
-double convergence(const ElasticBlock& block, int threads = 1) {
+double convergence(const ElasticBlock& block) {
   const CompressedRows a = compressed(block.matrix(), Symmetry::unsymmetric);
-  Multigrid cycle(threads);
+  core::Crew crew(1);
+  Multigrid cycle(crew);
   EXPECT_TRUE(cycle.build(CompressedRows(a), Halo(block.unknowns()),
                           groups_of_three(block.unknowns()), block.rigid_motions()));
   Eigen::VectorXd e = noise(block.unknowns());
@@ -147,7 +149,8 @@ TEST(Multigrid, ConvergesAtARateThatDoesNotFollowTheSize) {
 TEST(Multigrid, IsTheInverseWhereThereIsOneLevel) {
   const ElasticBlock block(4, 4, 4);
   const CompressedRows a = compressed(block.matrix(), Symmetry::unsymmetric);
-  Multigrid cycle(1);
+  core::Crew crew(1);
+  Multigrid cycle(crew);
   ASSERT_TRUE(cycle.build(CompressedRows(a), Halo(block.unknowns()),
                           groups_of_three(block.unknowns()), block.rigid_motions()));
   EXPECT_EQ(cycle.levels(), 1);
@@ -160,7 +163,8 @@ TEST(Multigrid, IsTheInverseWhereThereIsOneLevel) {
 TEST(Multigrid, IsSymmetricAndItsBitsDoNotDependOnThreads) {
   const ElasticBlock block(9, 10, 11);
   const CompressedRows a = compressed(block.matrix(), Symmetry::unsymmetric);
-  Multigrid one(1), two(2);
+  core::Crew crew_of_one(1), crew_of_two(2);
+  Multigrid one(crew_of_one), two(crew_of_two);
   ASSERT_TRUE(one.build(CompressedRows(a), Halo(block.unknowns()),
                         groups_of_three(block.unknowns()), block.rigid_motions()));
   ASSERT_TRUE(two.build(CompressedRows(a), Halo(block.unknowns()),
@@ -177,7 +181,8 @@ TEST(Multigrid, IsSymmetricAndItsBitsDoNotDependOnThreads) {
 TEST(Multigrid, SaysThatAFreeBodyHasNoCoarsestModel) {
   const ElasticBlock block(8, 8, 8, false);
   const CompressedRows a = compressed(block.matrix(), Symmetry::unsymmetric);
-  Multigrid cycle(1);
+  core::Crew crew(1);
+  Multigrid cycle(crew);
   EXPECT_FALSE(cycle.build(CompressedRows(a), Halo(block.unknowns()),
                            groups_of_three(block.unknowns()), block.rigid_motions()));
   Eigen::VectorXd x = noise(block.unknowns());

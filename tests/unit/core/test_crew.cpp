@@ -1,0 +1,74 @@
+#include "osculate/core/crew.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+#include <vector>
+
+namespace osculate::core {
+namespace {
+
+// Loops follow each other at once, after a while, and after the others have gone to sleep.
+TEST(Crew, EveryPieceIsDoneOnceBeforeTheNextLoop) {
+  for (const int threads : {1, 2, 5}) {
+    Crew crew(threads);
+    std::vector<int> done;
+    for (int loop = 0; loop < 3000; ++loop) {
+      done.assign(static_cast<std::size_t>(loop % 40), 0);
+      crew.share(done.size(), [&](std::size_t piece) { done[piece] += loop; });
+      for (const int times : done) ASSERT_EQ(times, loop);
+      if (loop % 1000 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+  }
+}
+
+TEST(Crew, RunsFollowEachOtherAndAreNotTooShort) {
+  Crew crew(3);
+  for (const std::size_t count : {0U, 1U, 9U, 10U, 19U, 20U, 239U, 10'007U}) {
+    std::vector<std::size_t> run_of(count + 1);
+    crew.share_runs(count, 10, [&](std::size_t begin, std::size_t end) {
+      EXPECT_TRUE(end - begin >= std::min<std::size_t>(count, 10)) << count;
+      for (std::size_t i = begin; i < end; ++i) run_of[i] += begin + 1;
+    });
+    for (std::size_t i = 0, begin = 0; i < count; ++i) {
+      if (run_of[i] != begin + 1) begin = i;
+      ASSERT_EQ(run_of[i], begin + 1) << count;
+    }
+  }
+}
+
+TEST(Crew, OneThatIsHeldUpDelaysOnlyWhatItIsAtAndIsLetAloneThen) {
+  Crew crew(2);
+  const auto here = std::this_thread::get_id();
+  std::atomic<int> of_the_other{0}, all{0};
+  bool alone = false;
+  for (int loop = 0; loop < 20; ++loop) {
+    const int before = of_the_other;
+    crew.share(100, [&](std::size_t) {
+      ++all;
+      if (std::this_thread::get_id() == here) return;
+      ++of_the_other;
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    });
+    EXPECT_LT(of_the_other, before + 50);
+    EXPECT_TRUE(!alone || of_the_other == before);
+    alone = alone || of_the_other > before;
+  }
+  EXPECT_EQ(all, 2000);
+}
+
+// More threads than cores, and each of two crews is at work.
+TEST(Crew, Several) {
+  std::atomic<int> sum{0};
+  const auto works = [&] {
+    Crew crew(4);
+    for (int loop = 0; loop < 500; ++loop) crew.share(7, [&](std::size_t) { ++sum; });
+  };
+  { const std::jthread one(works), two(works); }
+  EXPECT_EQ(sum, 2 * 500 * 7);
+}
+
+}  // namespace
+}  // namespace osculate::core
