@@ -45,7 +45,7 @@ void add_tangent(CLI::App& app, int& exit_code) {
                       "Result folder with checkpoints; also write tangent.json to it");
   command->add_option("--state", flags->state, "Converged increment (0 = initial)")
       ->check(CLI::Range(0, 1'000'000'000));
-  command->add_option("--threads", flags->threads, "Threads for assembly")
+  command->add_option("--threads", flags->threads, "Threads for bodies and contact")
       ->check(CLI::Range(1, 1024));
   command->add_flag("--json", flags->json, "Print JSON on stdout");
   add_settings(*command, flags->settings);

@@ -3,9 +3,11 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <exception>
 #include <mutex>
 #include <system_error>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace osculate::core {
@@ -30,6 +32,7 @@ struct Crew::Impl {
   std::atomic<int> asleep{0};
   std::mutex mutex;
   std::condition_variable awake;
+  std::exception_ptr failure;
   std::vector<std::thread> others;
 
   void start(int count);
@@ -42,7 +45,12 @@ struct Crew::Impl {
 };
 
 void Crew::Impl::take_pieces() {
-  for (std::size_t piece = next++; piece < pieces; piece = next++) work.call(work.of, piece);
+  for (std::size_t piece = next++; piece < pieces; piece = next++) try {
+      work.call(work.of, piece);
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      if (!failure) failure = std::current_exception();
+    }
 }
 
 /// Whether the gate is another than `seen` before it is worth to sleep.
@@ -121,20 +129,21 @@ Crew::~Crew() {
 
 void Crew::share(std::size_t pieces, Work work) {
   Impl& s = *impl_;
-  if (threads_ == 1 || pieces < 2 || s.alone > 0) {
-    for (std::size_t piece = 0; piece < pieces; ++piece) work.call(work.of, piece);
-    if (pieces > 1) s.alone = std::max(0, s.alone - 1);
-    return;
-  }
-  s.start(threads_ - 1);
   s.work = work;
   s.pieces = pieces;
   s.next = 0;
-  const auto begun = Impl::Clock::now();
-  s.open_gate();
-  s.take_pieces();
-  ++s.gate;
-  s.wait_for_others(begun);
+  if (threads_ == 1 || pieces < 2 || s.alone > 0) {
+    if (pieces > 1) s.alone = std::max(0, s.alone - 1);
+    s.take_pieces();
+  } else {
+    s.start(threads_ - 1);
+    const auto begun = Impl::Clock::now();
+    s.open_gate();
+    s.take_pieces();
+    ++s.gate;
+    s.wait_for_others(begun);
+  }
+  if (s.failure) std::rethrow_exception(std::exchange(s.failure, {}));
 }
 
 }  // namespace osculate::core

@@ -9,8 +9,8 @@ namespace osculate::core {
 /// thread whose core another program has taken delays no more than the piece it is at, and one that
 /// sleeps delays nothing. Between loops they spin for 50 microseconds, then sleep.
 ///
-/// Requires   one thread at a time shares; work throws nothing, and pieces have nothing to do with
-///            each other
+/// Requires   one thread at a time shares; pieces have nothing to do with each other
+/// Errors     one of the exceptions of the pieces, after all of them
 /// Tested by  tests/unit/core/test_crew.cpp
 class Crew {
  public:

@@ -1,7 +1,6 @@
 #include "osculate/la/compressed_rows.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <limits>
 #include <new>
 #include <numeric>
@@ -139,25 +138,21 @@ CompressedRows product(const CompressedRows& a, const CompressedRows& b, core::C
   };
   const Runs runs(b);
   std::vector<Rows> piece(pieces);
-  std::atomic<bool> without_room{false};
   crew.share(pieces, [&](std::size_t p) {
-    try {
-      SumOfRows sum(static_cast<Index>(b.cols()));
-      for (Index i = begin(p); i < begin(p + 1); ++i) {
-        for (CompressedRows::InnerIterator entry(a, i); entry; ++entry)
-          for (std::size_t r = runs.of_row[as_size(static_cast<Index>(entry.col()))];
-               r < runs.of_row[as_size(static_cast<Index>(entry.col())) + 1]; ++r)
-            sum.add(entry.value(), runs.run[r], b.valuePtr());
-        sum.take(piece[p]);
+    SumOfRows sum(static_cast<Index>(b.cols()));
+    for (Index i = begin(p); i < begin(p + 1); ++i) {
+      for (CompressedRows::InnerIterator entry(a, i); entry; ++entry) {
+        const std::size_t k = as_size(static_cast<Index>(entry.col()));
+        for (std::size_t r = runs.of_row[k]; r < runs.of_row[k + 1]; ++r)
+          sum.add(entry.value(), runs.run[r], b.valuePtr());
       }
-    } catch (const std::bad_alloc&) {
-      without_room = true;
+      sum.take(piece[p]);
     }
   });
   std::size_t entries = 0;
   for (const Rows& part : piece) entries += part.value.size();
-  if (without_room || entries > as_size(std::numeric_limits<Index>::max()))
-    throw NotEnoughMemory("not enough memory for a product of matrices");
+  // Not NotEnoughMemory, which all processes are short of.
+  if (entries > as_size(std::numeric_limits<Index>::max())) throw std::bad_alloc();
   CompressedRows out(rows, b.cols());
   out.resizeNonZeros(static_cast<Index>(entries));
   Index row = 0, next = 0;

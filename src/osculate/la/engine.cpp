@@ -103,7 +103,7 @@ bool alike(const SparseMatrix& a, const SparseMatrix& b) {
     each(a, i, [&](Index j, double v) { row[j] = v; });
     const double before = row[i];
     each(b, i, [&](Index j, double v) { row[j] -= v; });
-    same = same && row[i] <= (1 - left) * std::abs(before);
+    same = same && std::copysign(row[i], before * row[i]) <= (1 - left) * std::abs(before);
     each(a, i, take);
     each(b, i, take);
     same = same && change <= most * scale[i];
@@ -124,10 +124,12 @@ class Exact {
     kept_ = may_keep && direct_ && symmetry == symmetry_ && alike(factored_, few);
     if (ranks_) kept_ = ranks_->all(kept_);
     if (kept_) return true;
+    factored_ = {};  // the factors are gone where an error ends what follows
     if (!direct_) direct_ = std::make_unique<DealtMumps>(options);
+    if (direct_->factor(few, 0, symmetry).status != SolveStatus::ok) return false;
     factored_ = std::move(few);
     symmetry_ = symmetry;
-    return direct_->factor(factored_, 0, symmetry).status == SolveStatus::ok;
+    return true;
   }
   [[nodiscard]] bool kept() const { return kept_; }
   [[nodiscard]] bool any() const { return !unknowns_.empty(); }

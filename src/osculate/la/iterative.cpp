@@ -61,6 +61,7 @@ bool Iterative::Impl::begin_build() {
   anew = false;
   first_pace = 0;
   pace = 0;
+  ++work.factored;
   return trusts;
 }
 
@@ -97,12 +98,15 @@ bool Iterative::Impl::refresh(const SparseMatrix& k) {
   constexpr double slower = 1.5;
   if (anew || !by_multigrid || !engine || pace > slower * first_pace) return false;
   fresh = false;
-  return engine->refresh(k, symmetry, places);
+  const bool done = engine->refresh(k, symmetry, places);
+  if (!engine->keeps_factors()) ++work.factored;
+  return done;
 }
 
 FactorReport Iterative::Impl::factor_directly(const SparseMatrix& k) {
   by_multigrid = false;
   engine.reset();
+  ++work.factored;
   return direct.factor(k, version, symmetry);
 }
 
@@ -209,7 +213,6 @@ FactorReport Iterative::factor(const SparseMatrix& k, std::uint64_t pattern_vers
   if (s.by_multigrid) {
     FactorReport report;
     report.whole = false;
-    report.kept = again && s.engine->keeps_factors();
     return report;
   }
   ++s.work.given_up;

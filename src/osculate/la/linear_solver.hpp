@@ -44,7 +44,6 @@ struct FactorReport {
   /// False: only what may change was factored. The rest had been eliminated before, or is iterated
   /// on.
   bool whole = true;
-  bool kept = false;      ///< nothing was factored: factors of an earlier matrix serve on
   double operations = 0;  ///< of the factorisation, where it is worth to do without it; else 0
 };
 
@@ -52,6 +51,7 @@ struct FactorReport {
 struct IterativeWork {
   int solutions = 0, iterations = 0;  ///< of systems that were solved so, and of all attempts
   int given_up = 0;                   ///< matrices that were left to the direct solver
+  int factored = 0;  ///< likewise, and those of which a part was: others go with factors before
 };
 
 class Eliminated;

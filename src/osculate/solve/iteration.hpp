@@ -153,7 +153,7 @@ struct NewtonResult {
   la::SolveStatus linear = la::SolveStatus::ok;
   Index bad_row = -1;
   bool whole_factors = true;  ///< of the last factorisation: la::FactorReport
-  bool kept_factors = false;  ///< likewise
+  bool kept_factors = false;  ///< nothing was factored, and the solver iterates
   int negative_pivots = 0;    ///< likewise
   Precision precision{};
 };

@@ -66,7 +66,6 @@ bool factor_tangent(S& system, la::LinearSolver& solver, NewtonResult<typename S
       report = solver.factor(system.matrix(), system.pattern_version(), system.symmetry());
   result.linear = report.status;
   result.whole_factors = report.whole;
-  result.kept_factors = report.kept;
   result.negative_pivots = report.negative_pivots;
   result.bad_row = report.bad_row;
   if (report.status == la::SolveStatus::singular)
@@ -124,6 +123,7 @@ bool solve_correction(S& system, la::LinearSolver& solver, const Eigen::VectorXd
   if (former && solve_by_symmetric_part(system, solver, residual, du, result, *former)) return true;
   // A solver that iterates knows after an attempt that the matrix is to be factored.
   const int attempts = solver.asks_for_places() ? 2 : 1;
+  const int factored = solver.work().factored;
   for (int attempt = 0; attempt < attempts; ++attempt) {
     la::FactorReport report;
     if (!factor_tangent(system, solver, result, report)) return false;
@@ -132,6 +132,7 @@ bool solve_correction(S& system, la::LinearSolver& solver, const Eigen::VectorXd
     result.linear = solver.solve(du);
     if (result.linear != la::SolveStatus::ok || !du.allFinite()) continue;
     if (former) former->keep(report, system.matrix(), result.evaluation.counts);
+    result.kept_factors = solver.asks_for_places() && solver.work().factored == factored;
     return true;
   }
   return fail(result, Outcome::numerical_failure, "the tangent is singular");

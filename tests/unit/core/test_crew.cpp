@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <new>
 #include <thread>
 #include <vector>
 
@@ -39,24 +40,46 @@ TEST(Crew, RunsFollowEachOtherAndAreNotTooShort) {
   }
 }
 
+/// Pieces of the one that shares wait, at first, until another thread has taken one.
 TEST(Crew, OneThatIsHeldUpDelaysOnlyWhatItIsAtAndIsLetAloneThen) {
+  using Clock = std::chrono::steady_clock;
   Crew crew(2);
   const auto here = std::this_thread::get_id();
+  const auto until = Clock::now() + std::chrono::seconds(20);
   std::atomic<int> of_the_other{0}, all{0};
-  bool alone = false;
-  for (int loop = 0; loop < 20; ++loop) {
-    const int before = of_the_other;
+  const auto loop = [&] {
     crew.share(100, [&](std::size_t) {
       ++all;
-      if (std::this_thread::get_id() == here) return;
-      ++of_the_other;
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+      if (std::this_thread::get_id() != here) {
+        ++of_the_other;
+        std::this_thread::sleep_for(std::chrono::milliseconds(300));
+      }
+      while (of_the_other == 0 && Clock::now() < until) std::this_thread::yield();
     });
-    EXPECT_LT(of_the_other, before + 50);
-    EXPECT_TRUE(!alone || of_the_other == before);
-    alone = alone || of_the_other > before;
+  };
+  loop();
+  EXPECT_GE(of_the_other, 1);
+  EXPECT_LT(of_the_other, 10);
+  const int before = of_the_other;
+  for (int i = 0; i < 20; ++i) loop();
+  EXPECT_EQ(of_the_other, before);
+  EXPECT_EQ(all, 2100);
+}
+
+TEST(Crew, ThrowsWhatAPieceHasThrownAfterAllOfThem) {
+  Crew crew(3);
+  for (int loop = 0; loop < 100; ++loop) {
+    std::atomic<int> done{0};
+    EXPECT_THROW(crew.share(50,
+                            [&](std::size_t piece) {
+                              ++done;
+                              if (piece % 20 == 7) throw std::bad_alloc();
+                            }),
+                 std::bad_alloc);
+    EXPECT_EQ(done, 50);
+    crew.share(50, [&](std::size_t) { ++done; });
+    EXPECT_EQ(done, 100);
   }
-  EXPECT_EQ(all, 2000);
 }
 
 // More threads than cores, and each of two crews is at work.

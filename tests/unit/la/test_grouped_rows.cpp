@@ -46,6 +46,22 @@ TEST(GroupedRows, HaveTheBitsOfProductsRowByRow) {
   EXPECT_GT(grouped.entries(), static_cast<std::size_t>(a.nonZeros()));
 }
 
+TEST(GroupedRows, BitsDoNotDependOnThreads) {
+  const ElasticBlock block(5, 6, 7);
+  GroupStarts groups{0};
+  while (groups.back() < block.unknowns()) groups.push_back(groups.back() + 3);
+  ASSERT_GT(groups.size(), 300U) << "for some runs of groups";
+  const CompressedRows a = compressed(block.matrix(), Symmetry::unsymmetric);
+  const Eigen::VectorXd x = values(block.unknowns());
+  core::Crew one(1), three(3);
+  const GroupedRows<double> grouped(a, groups, one), again(a, groups, three);
+  Eigen::VectorXd expected, y;
+  grouped.multiply(x, one, expected);
+  EXPECT_LT((a * x - expected).norm(), 1e-14 * expected.norm());
+  again.multiply(x, three, y);
+  EXPECT_EQ(y, expected);
+}
+
 TEST(GroupedRows, GiveBackTheEntriesThatTheyWereMadeOf) {
   const ElasticBlock block(3, 3, 2);
   GroupStarts groups{0};

@@ -1,7 +1,5 @@
 #include "osculate/model/terms/bulk_term.hpp"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -12,13 +10,14 @@
 namespace osculate::model {
 namespace {
 
-constexpr std::size_t tile = 32;  ///< cells of a thread before they are added, in order
+constexpr std::size_t tile = 32;     ///< cells of a thread before they are added, in order
+constexpr std::size_t worth_it = 4;  ///< cells, while a thread is told of them
 
 }  // namespace
 
 template <int Dim>
 BulkTerm<Dim>::BulkTerm(const BasicModel<Dim>& m, const BasicDofSpace<Dim>& dofs, int thread_count)
-    : model(m), threads(thread_count) {
+    : model(m), threads(thread_count), crew(thread_count) {
   for_each_cell(model, [&](const auto& section, const mesh::CellRef& cell, const CellMemory& of) {
     (is_constant(model, dofs, section, cell) ? constant : others).push_back(jobs.size());
     jobs.push_back({&section, cell, of});
@@ -110,11 +109,11 @@ bool BulkTerm<Dim>::add_cells(const State& committed, const State& trial, double
   for (std::size_t start = 0; start < cells; start += blocks.size()) {
     const std::size_t count = std::min(blocks.size(), cells - start);
     const Stopwatch watch;
-#pragma omp parallel for num_threads(threads) schedule(static)
-    for (std::size_t i = 0; i < count; ++i) {
-      evaluate(number(start + i), trial.u, committed.memory, to.into.memory, duration,
-               to.with_tangent, blocks[i]);
-    }
+    crew.share_runs(count, worth_it, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        evaluate(number(start + i), trial.u, committed.memory, to.into.memory, duration,
+                 to.with_tangent, blocks[i]);
+    });
     seconds += watch.seconds();
     for (std::size_t i = 0; i < count; ++i) {
       BasicBulkBlock<Dim>& block = blocks[i];
@@ -142,15 +141,17 @@ template <int Dim>
 void BulkTerm<Dim>::add_stresses(const Strained& at, const Strained* less, Assembly<Dim>& to) {
   for (std::size_t start = 0; start < jobs.size(); start += blocks.size()) {
     const std::size_t count = std::min(blocks.size(), jobs.size() - start);
-#pragma omp parallel for num_threads(threads) schedule(static)
-    for (std::size_t i = 0; i < count; ++i) {
+    const auto evaluate_one = [&](std::size_t i) {
       const Job& job = jobs[start + i];
       blocks[i].ok = false;
       if (!job.memory.removed && job.section->section.kinematics == solid::Kinematics::small)
         stressed_cell(model, *job.section, job.cell, at.u, job.memory.of(at.memory),
                       less ? &less->u : nullptr,
                       less ? job.memory.of(less->memory) : material::Memory{}, blocks[i]);
-    }
+    };
+    crew.share_runs(count, worth_it, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) evaluate_one(i);
+    });
     for (std::size_t i = 0; i < count; ++i) {
       if (!blocks[i].ok) continue;
       const auto size = static_cast<std::size_t>(blocks[i].dof_count);

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "osculate/core/crew.hpp"
 #include "osculate/model/inertia.hpp"
 #include "osculate/model/linear_cells.hpp"
 #include "osculate/model/material_memory.hpp"
@@ -32,6 +33,7 @@ struct BulkTerm {
 
   const BasicModel<Dim>& model;
   int threads;
+  core::Crew crew;
   std::vector<Job> jobs;
   LinearCells<Dim> linear;  ///< by job
   std::vector<BasicBulkBlock<Dim>> blocks;
