@@ -5,8 +5,8 @@ import subprocess
 import unittest
 
 import ranks_case
-from models import PLANE, of, pair
-from ranks_case import PROGRAM, RanksCase, main
+from models import MODELS, PLANE, of, pair
+from ranks_case import PROGRAM, RanksCase, environment, main, together
 
 MODEL = of(PLANE, pair("sampling: nodes"))
 
@@ -62,6 +62,25 @@ class Ends(RanksCase):
                 finally:
                     subprocess.run(["umount", self.path("small")], check=True)
                 self.assertEqual((done.stdout + done.stderr).count("No space left on device"), 1, done.stderr)
+
+    def test_one_process_lacks_memory(self):
+        """While the others wait for it somewhere else."""
+        codes = []
+        for name, processes in (("by multigrid", 2), ("by multigrid", 3), ("Gauss points in space", 2)):
+            self.write(MODELS[name])
+            for megabytes in (600, 500, 450, 400, 350):
+                with self.subTest(name, processes=processes, megabytes=megabytes):
+                    limited = ["bash", "-c", f'ulimit -v {megabytes}000; exec "$0" "$@"', PROGRAM, "run", "model.yaml"]
+                    command = together(processes, "run", "model.yaml")
+                    command[command.index("-n") + 1] = str(processes - 1)
+                    done = subprocess.run([*command, ":", "-n", "1", *limited], cwd=self.folder.name, capture_output=True, text=True,
+                                          env=environment(), timeout=self.limit, stdin=subprocess.DEVNULL)
+                    codes.append(done.returncode)
+                    if done.returncode == 1:  # of Open MPI, which has not even begun
+                        continue
+                    self.assertIn(done.returncode, (0, 3), done.stdout + done.stderr)
+                    self.assertEqual((done.stdout + done.stderr).count("not enough memory"), done.returncode // 3, done.stderr)
+        self.assertIn(3, codes)
 
 
 if __name__ == "__main__":
