@@ -92,7 +92,9 @@ void add_run(CLI::App& app, int& exit_code) {
   command->add_option("model", flags->options.model, "Model file (YAML)")->required();
   command->add_option("-o,--output", flags->options.folder,
                       "Result folder (default: MODEL's stem + .results)");
-  command->add_option("--threads", flags->options.threads, "Threads for bodies, contact and multigrid; results do not depend on them")
+  command
+      ->add_option("--threads", flags->options.threads,
+                   "Threads for bodies, contact and multigrid; results do not depend on them")
       ->check(CLI::Range(1, 1024));
   command->add_option("--until", flags->options.until, "Last step to run, inclusive");
   command->add_flag("--json", flags->json, "Print the summary as JSON on stdout");
