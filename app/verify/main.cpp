@@ -198,7 +198,7 @@ int run_program(int argc, char** argv) {
   app.add_option("--json", options.json, "Also write the table to this file");
   app.add_option("--curves", options.curves, "Write the curves of the cases as CSV to this folder");
   app.add_option("--plots", options.plots, "Write the plots of the cases as SVG to this folder");
-  app.add_option("--threads", options.threads, "Threads for assembly");
+  app.add_option("--threads", options.threads, "Threads for bodies, contact and multigrid");
   app.add_option("--jobs", options.jobs, "Cases that run at the same time")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();

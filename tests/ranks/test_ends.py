@@ -66,7 +66,8 @@ class Ends(RanksCase):
     def test_one_process_lacks_memory(self):
         """While the others wait for it somewhere else."""
         codes = []
-        for name, processes in (("by multigrid", 2), ("by multigrid", 3), ("Gauss points in space", 2)):
+        for name, processes in (("by multigrid", 2), ("by multigrid", 3), ("Gauss points in space", 2), ("swung", 2),
+                                ("modes between", 2)):
             self.write(MODELS[name])
             for megabytes in (600, 500, 450, 400, 350):
                 with self.subTest(name, processes=processes, megabytes=megabytes):

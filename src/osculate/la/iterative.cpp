@@ -99,7 +99,7 @@ bool Iterative::Impl::refresh(const SparseMatrix& k) {
   if (anew || !by_multigrid || !engine || pace > slower * first_pace) return false;
   fresh = false;
   const bool done = engine->refresh(k, symmetry, places);
-  if (!engine->keeps_factors()) ++work.factored;
+  if (done && !engine->keeps_factors()) ++work.factored;
   return done;
 }
 

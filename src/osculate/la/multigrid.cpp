@@ -1,13 +1,12 @@
 #include "osculate/la/multigrid.hpp"
 
 #include <Eigen/QR>
-#include <algorithm>
 #include <cmath>
-#include <new>
 #include <utility>
 #include <vector>
 
 #include "osculate/la/block_diagonal.hpp"
+#include "osculate/la/by_itself.hpp"
 #include "osculate/la/grouped_rows.hpp"
 #include "osculate/la/mumps.hpp"
 
@@ -157,18 +156,6 @@ Tentative tentative(const Level& fine, const Aggregates& aggregates) {
   return out;
 }
 
-/// Work that each process does for itself. NotEnoughMemory is of all of them; who is short of it
-/// alone says so.
-template <class Work>
-auto by_itself(const Halo& halo, const Work& work) {
-  try {
-    return work();
-  } catch (const NotEnoughMemory&) {
-    if (halo.ranks()) throw std::bad_alloc();
-    throw;
-  }
-}
-
 /// Groups that no coarser model knows.
 std::vector<char> left_out(const Level& level) {
   std::vector<char> out(level.start.size() - 1, 0);
@@ -261,7 +248,7 @@ bool Multigrid::build(CompressedRows&& a, Halo halo, GroupStarts groups,
   s.coarsest = std::make_unique<Mumps>();
   const SparseMatrix whole = stored(gathered(s.levels.back()->a, last));
   const FactorReport report =
-      by_itself(last, [&] { return s.coarsest->factor(whole, 0, Symmetry::unsymmetric); });
+      by_itself(last.ranks(), [&] { return s.coarsest->factor(whole, 0, Symmetry::unsymmetric); });
   release(s.levels.back()->a);
   return last.all(report.status == SolveStatus::ok);
 }
@@ -278,7 +265,8 @@ bool Multigrid::Impl::cycle(std::size_t level, const Eigen::VectorXd& b, Eigen::
   Level& fine = *levels[level];
   if (level + 1 == levels.size()) {
     Eigen::VectorXd all = fine.halo.gathered(b);
-    const SolveStatus done = by_itself(fine.halo, [&] { return coarsest->solve_once(all); });
+    const SolveStatus done =
+        by_itself(fine.halo.ranks(), [&] { return coarsest->solve_once(all); });
     if (done != SolveStatus::ok) return false;
     x = all.segment(fine.halo.begin(), fine.halo.own());
     return true;

@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "osculate/core/memory.hpp"
+#include "osculate/la/by_itself.hpp"
 #include "osculate/la/condensed.hpp"
 #include "osculate/la/iterative.hpp"
 #include "osculate/model/body_changes.hpp"
@@ -295,6 +296,11 @@ struct Analysis {
 
   void run_step(const Step& step) {
     introduce(finds_balance(step));
+    if (finds_balance(step)) return carry_out(step);
+    la::by_itself(options.ranks, [&] { carry_out(step); });
+  }
+
+  void carry_out(const Step& step) {
     if (step.frequencies) return find_vibrations(step);
     if (step.buckling) return find_buckling(step);
     if (step.harmonic) return run_harmonic(step);

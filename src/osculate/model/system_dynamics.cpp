@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "osculate/la/by_itself.hpp"
 #include "osculate/model/system_motion.hpp"
 #include "osculate/pairing/point_penalty.hpp"
 
@@ -217,8 +218,9 @@ void BasicSystem<Dim>::Impl::Motion::factor_mass() {
   }
   for (Index u = 0; u < dofs.unknowns(); ++u)
     if (massless[static_cast<std::size_t>(u)]) builder.add(u, u, 1.0);
-  const la::FactorReport report =
-      solver->factor(builder.finish(), builder.pattern_version(), la::Symmetry::indefinite);
+  const la::FactorReport report = la::by_itself(system.ranks, [&] {
+    return solver->factor(builder.finish(), builder.pattern_version(), la::Symmetry::indefinite);
+  });
   mass_known = report.status == la::SolveStatus::ok;
   if (mass_known) return;
   failure = "the mass matrix cannot be factored: ";
@@ -246,7 +248,8 @@ Eigen::VectorXd BasicSystem<Dim>::Impl::Motion::accelerations_by(const Eigen::Ve
   for (Index u = 0; u < dofs.unknowns(); ++u)
     if (massless[static_cast<std::size_t>(u)]) a[u] = 0;
   if (!failure.empty()) return Eigen::VectorXd::Zero(dofs.dofs());
-  if (solver->solve(a) != la::SolveStatus::ok || !a.allFinite()) {
+  const la::SolveStatus solved = la::by_itself(system.ranks, [&] { return solver->solve(a); });
+  if (solved != la::SolveStatus::ok || !a.allFinite()) {
     failure = "the mass matrix cannot be solved with";
     a.setZero();
   }
