@@ -48,11 +48,11 @@ TEST(Crew, OneThatIsHeldUpDelaysOnlyWhatItIsAtAndIsLetAloneThen) {
   const auto until = Clock::now() + std::chrono::seconds(20);
   std::atomic<int> of_the_other{0}, all{0};
   const auto loop = [&] {
-    crew.share(100, [&](std::size_t) {
+    crew.share(100, [&, begun = Clock::now()](std::size_t) {
       ++all;
       if (std::this_thread::get_id() != here) {
-        ++of_the_other;
-        std::this_thread::sleep_for(std::chrono::milliseconds(300));
+        ++of_the_other;  // longer than it took to come
+        std::this_thread::sleep_for(std::chrono::milliseconds(200) + 2 * (Clock::now() - begun));
       }
       while (of_the_other == 0 && Clock::now() < until) std::this_thread::yield();
     });
