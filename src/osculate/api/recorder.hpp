@@ -340,18 +340,18 @@ struct Recorder {
       nlohmann::json::to_cbor(report.newest(), entry.frame);
   }
 
-  /// Where nothing is said, small models do without most: their increments are soon done again, and
-  /// what the linear solver has passes from one to the next.
+  /// Where nothing is said, all but large models do without most: their increments are soon done
+  /// again, and what the linear solver has passes from one to the next.
   [[nodiscard]] bool is_due(const model::BasicSystem<Dim>& system, const model::Progress& p) const {
-    constexpr Index small = 20'000;
-    constexpr int seldom = 10;
+    constexpr Index small = 20'000, large = 200'000;
+    const int every_so_often = system.unknowns() < small ? 10 : 5;
     if (p.fraction >= 1.0) return true;
     if (const std::optional<int>& every = description.output.checkpoint)
       return converged_count % *every == 0 || stopping;
     const std::vector<model::Step>& steps = built.model.steps;
     const bool by_increments =
         steps.empty() || model::iterates(steps[static_cast<std::size_t>(p.step)]);
-    return system.unknowns() >= small || !by_increments || converged_count % seldom == 0;
+    return system.unknowns() >= large || !by_increments || converged_count % every_so_often == 0;
   }
 
   /// The increment that `converged` has recorded. True if its state is in a checkpoint.

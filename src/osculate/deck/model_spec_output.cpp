@@ -217,8 +217,9 @@ BoundKeys<Output> output_keys() {
           "When a checkpoint is written, from which `osculate run --restart` goes on.",
           {integer("Every n-th increment, and at the end of every step.").at_least(1),
            choice("A word.", {word("auto", FieldTimes::every,
-                                   "after every increment, after every tenth of a model of fewer "
-                                   "than 20 000 unknowns; and at the end of every step"),
+                                   "after every increment, every tenth of a model of fewer than "
+                                   "20 000 unknowns, every fifth below 200 000; and at the end of "
+                                   "every step"),
                               word("none", FieldTimes::none, "never")})})
           .otherwise("auto")
           .such_as("10");

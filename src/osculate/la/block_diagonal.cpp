@@ -8,13 +8,18 @@ namespace {
 
 constexpr std::size_t blocks_at_least = 500;  // groups, while a thread is told of them
 
-Eigen::MatrixXd inverse_of_block(const CompressedRows& a, Index first, Index size) {
-  constexpr double digits = 1e-7;
+Eigen::MatrixXd block_of(const CompressedRows& a, Index first, Index size) {
   Eigen::MatrixXd block = Eigen::MatrixXd::Zero(size, size);
   for (Index i = 0; i < size; ++i)
     for (CompressedRows::InnerIterator entry(a, first + i); entry; ++entry)
       if (entry.col() >= first && entry.col() < first + size)
         block(i, entry.col() - first) = entry.value();
+  return block;
+}
+
+Eigen::MatrixXd inverse_of_block(Eigen::MatrixXd block) {
+  constexpr double digits = 1e-7;
+  const Eigen::Index size = block.rows();
   block = (0.5 * (block + block.transpose())).eval();
   const Eigen::LLT<Eigen::MatrixXd> factors(block);
   const Eigen::VectorXd pivots = factors.matrixLLT().diagonal();
@@ -42,7 +47,19 @@ BlockDiagonal::BlockDiagonal(const CompressedRows& a, const GroupStarts& start, 
   value_.resize(place_.back());
   crew.share_runs(start.size() - 1, blocks_at_least, [&](std::size_t begin, std::size_t end) {
     for (std::size_t g = begin; g < end; ++g) {
-      const Eigen::MatrixXd inverse = inverse_of_block(a, start[g], start[g + 1] - start[g]);
+      const Eigen::MatrixXd inverse =
+          inverse_of_block(block_of(a, start[g], start[g + 1] - start[g]));
+      std::copy_n(inverse.data(), inverse.size(), value_.data() + place_[g]);
+    }
+  });
+}
+
+void BlockDiagonal::update(const GroupedRows<double>& a, const std::vector<char>& groups,
+                           core::Crew& crew) {
+  crew.share_runs(groups.size(), blocks_at_least, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t g = begin; g < end; ++g) {
+      if (groups[g] == 0) continue;
+      const Eigen::MatrixXd inverse = inverse_of_block(a.diagonal_block(g));
       std::copy_n(inverse.data(), inverse.size(), value_.data() + place_[g]);
     }
   });

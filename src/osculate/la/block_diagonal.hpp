@@ -4,6 +4,7 @@
 
 #include "osculate/core/crew.hpp"
 #include "osculate/la/aggregates.hpp"
+#include "osculate/la/grouped_rows.hpp"
 
 namespace osculate::la {
 
@@ -15,6 +16,8 @@ class BlockDiagonal {
  public:
   BlockDiagonal() = default;
   BlockDiagonal(const CompressedRows& a, const GroupStarts& start, core::Crew& crew);
+  /// Takes some groups' blocks from another matrix of the same groups.
+  void update(const GroupedRows<double>& a, const std::vector<char>& groups, core::Crew& crew);
   /// y = D^-1 r
   void apply(const Eigen::VectorXd& r, core::Crew& crew, Eigen::VectorXd& y) const;
   [[nodiscard]] CompressedRows as_matrix() const;

@@ -112,11 +112,26 @@ bool alike(const SparseMatrix& a, const SparseMatrix& b) {
   return same;
 }
 
+/// Calls take(row, column, value), row by row, for some columns, of which `before` says how many
+/// are below each.
+template <class Take>
+void for_each(const CompressedRows& a, const std::vector<Index>& before, const Take& take) {
+  for (Index i = 0; i < a.rows(); ++i)
+    for (CompressedRows::InnerIterator entry(a, i); entry; ++entry)
+      if (const auto c = static_cast<std::size_t>(entry.col()); before[c] < before[c + 1])
+        take(i, static_cast<Index>(entry.col()), entry.value());
+}
+template <class Take>
+void for_each(const GroupedRows<double>& a, const std::vector<Index>& before, const Take& take) {
+  a.for_each(before, take);
+}
+
 /// What is solved for directly: rows and columns of the matrix that are of contact.
 class Exact {
  public:
   /// `may_keep`: factors of an earlier matrix serve on where that was alike. False: singular.
-  bool factor(const CompressedRows& a, const Places& places, const Part& part, Symmetry symmetry,
+  template <class Rows>
+  bool factor(const Rows& a, const Places& places, const Part& part, Symmetry symmetry,
               const MumpsOptions& options, bool may_keep) {
     kept_ = false;
     take_columns(a, places, part);
@@ -152,7 +167,8 @@ class Exact {
   }
 
  private:
-  void take_columns(const CompressedRows& a, const Places& places, const Part& part) {
+  template <class Rows>
+  void take_columns(const Rows& a, const Places& places, const Part& part) {
     unknowns_.clear();
     own_.clear();
     std::vector<Index> position(places.node.size(), -1);
@@ -166,11 +182,12 @@ class Exact {
       if (const Index j = position[as_size(part.unknown(i))]; j >= 0) own_.push_back({i, j});
     ranks_ = part.dealt.ranks;
     std::vector<Eigen::Triplet<double, Index>> entries;
-    for (Index i = 0; i < a.rows(); ++i)
-      for (CompressedRows::InnerIterator entry(a, i); entry; ++entry)
-        if (const Index j = position[as_size(part.unknown(static_cast<Index>(entry.col())))];
-            j >= 0)
-          entries.emplace_back(i, j, entry.value());
+    std::vector<Index> before{0};
+    for (Index column = 0; column < part.halo.here(); ++column)
+      before.push_back(before.back() + (position[as_size(part.unknown(column))] >= 0 ? 1 : 0));
+    for_each(a, before, [&](Index i, Index column, double value) {
+      entries.emplace_back(i, position[as_size(part.unknown(column))], value);
+    });
     columns_.resize(static_cast<Index>(a.rows()), static_cast<Index>(unknowns_.size()));
     columns_.setFromTriplets(entries.begin(), entries.end());
   }
@@ -208,25 +225,29 @@ class MultigridEngine final : public Engine {
 
   bool build(const SparseMatrix& k, Symmetry symmetry, const Places& places) override {
     a_ = {};
+    in_step_ = false;
     bodies_.reset();
     part_ = {};
     part_.dealt = dealt_as(k);
     if (!build(take_part(k, symmetry), symmetry, places)) return false;
     take(take_part(k, symmetry), places);  // not before: the coarser models take most memory
+    in_step_ = true;
     return true;
   }
   bool refresh(const SparseMatrix& k, Symmetry symmetry, const Places& places) override {
     call_crew(places.threads);
     symmetry_ = symmetry;
     if (!bodies_ || !deals(part_.dealt, k)) return false;
-    a_ = {};
-    const CompressedRows a = take_part(k, symmetry);
-    take(a, places);
-    return bodies_->refresh(a, part_.halo) &&
-           exact_.factor(a, places, part_, symmetry, direct_, true);
+    std::vector<char> differs;
+    const bool fits = update(k, symmetry, places, differs);
+    in_step_ = bodies_->refresh(a_, fits ? &differs : nullptr, part_.halo);
+    return in_step_ && exact_.factor(a_, places, part_, symmetry, direct_, true);
   }
   [[nodiscard]] bool keeps_factors() const override { return exact_.kept(); }
-  bool build_again(const Places& places) override { return build(a_.as_rows(), symmetry_, places); }
+  bool build_again(const Places& places) override {
+    in_step_ = false;  // `a_` may have places for zeros
+    return build(a_.as_rows(), symmetry_, places);
+  }
   Nearby solve(const PreconditionedLimits& limits, Eigen::VectorXd& rhs) override {
     PreconditionedSolutions by(
         [this](const Eigen::VectorXd& x, Eigen::VectorXd& y) {
@@ -262,6 +283,32 @@ class MultigridEngine final : public Engine {
       part_.unknowns.push_back(part_.dealt.unknown[as_size(part_.halo.number_everywhere(i))]);
     return taken(rows.a);
   }
+  /// Takes a matrix. False: not as one with the places for entries that the last one had.
+  bool update(const SparseMatrix& k, Symmetry symmetry, const Places& places,
+              std::vector<char>& differs) {
+    const bool may = std::exchange(in_step_, false) && a_.rows() == part_.halo.own();
+    bool fits = false;
+    if (symmetry == Symmetry::unsymmetric && !part_.dealt.ranks) {
+      const auto rows = [&](Index i, const auto& take) {
+        for (Index e = k.row_start[as_size(i)]; e < k.row_start[as_size(i) + 1]; ++e)
+          if (k.value[as_size(e)] != 0) take(k.column[as_size(e)], k.value[as_size(e)]);
+      };
+      fits = may && a_.update(rows, *crew_, differs);
+      if (!fits) a_ = {};
+      if (!fits) take(take_part(k, symmetry), places);
+    } else {
+      const std::vector<Index> others = part_.halo.others();
+      const CompressedRows a = take_part(k, symmetry);
+      const auto rows = [&](Index i, const auto& each) {
+        for (CompressedRows::InnerIterator entry(a, i); entry; ++entry)
+          each(static_cast<Index>(entry.col()), entry.value());
+      };
+      fits = may && others == part_.halo.others() && a_.update(rows, *crew_, differs);
+      if (!fits) take(a, places);
+    }
+    if (fits) take_diagonal();
+    return fits;
+  }
   bool build(CompressedRows&& a, Symmetry symmetry, const Places& places) {
     call_crew(places.threads);
     symmetry_ = symmetry;
@@ -271,8 +318,17 @@ class MultigridEngine final : public Engine {
     return bodies_->build(std::move(a), part_.halo, groups_of(places, part_), std::move(motions));
   }
   void take(const CompressedRows& a, const Places& places) {
+    a_ = {};
     a_ = GroupedRows<double>(a, groups_of(places, part_), *crew_);
-    diagonal_ = part_.all(Eigen::VectorXd(a.diagonal()).cwiseAbs());
+    take_diagonal();
+  }
+  void take_diagonal() {
+    Eigen::VectorXd own(a_.rows());
+    for (std::size_t g = 0; g + 1 < a_.groups().size(); ++g) {
+      const Eigen::VectorXd of = a_.diagonal_block(g).diagonal().cwiseAbs();
+      own.segment(a_.groups()[g], of.size()) = of;
+    }
+    diagonal_ = part_.all(std::move(own));
   }
   bool precondition(Eigen::VectorXd& own) {
     Eigen::VectorXd few;
@@ -287,6 +343,7 @@ class MultigridEngine final : public Engine {
   std::unique_ptr<core::Crew> crew_;  ///< outlives `bodies_`
   Part part_;
   GroupedRows<double> a_;
+  bool in_step_ = false;  ///< what `bodies_` multiply with has the places and values of `a_`
   Eigen::VectorXd diagonal_;
   std::unique_ptr<Multigrid> bodies_;
   Exact exact_;

@@ -10,19 +10,21 @@
 namespace osculate::la {
 namespace {
 
-constexpr std::size_t groups_at_least = 64;  // groups, while a thread is told of them
-
 /// By which the largest entry becomes a number near one; of double precision nothing is changed.
 template <class Value>
-double scale_of(const CompressedRows& a) {
+double scale_of(double largest) {
   if constexpr (std::is_same_v<Value, double>) return 1;
-  double largest = 0;
-  for (Eigen::Index e = 0; e < a.nonZeros(); ++e)
-    largest = std::max(largest, std::abs(a.valuePtr()[e]));
   int exponent = 0;
   if (!(largest > 0) || !std::isfinite(largest)) return 1;
   std::frexp(largest, &exponent);
   return std::ldexp(1.0, -exponent);
+}
+
+double largest_of(const CompressedRows& a) {
+  double largest = 0;
+  for (Eigen::Index e = 0; e < a.nonZeros(); ++e)
+    largest = std::max(largest, std::abs(a.valuePtr()[e]));
+  return largest;
 }
 
 /// Sums of a row each, which stay in registers: no loop over the rows is left to the compiler.
@@ -58,12 +60,47 @@ template <class Value>
 GroupedRows<Value>::GroupedRows(const CompressedRows& a, GroupStarts groups, core::Crew& crew)
     : groups_(std::move(groups)),
       columns_(static_cast<Index>(a.cols())),
-      scale_(scale_of<Value>(a)) {
+      scale_(scale_of<Value>(largest_of(a))) {
   find_columns(a);
   values_.assign(first_value_.back(), Value{0});
   crew.share_runs(groups_.size() - 1, groups_at_least, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t g = begin; g < end; ++g) fill(a, g);
+    for (std::size_t g = begin; g < end; ++g)
+      for (Index i = 0; i < size_of(g); ++i) {
+        const auto row = [&](const auto& take) {
+          for (CompressedRows::InnerIterator entry(a, groups_[g] + i); entry; ++entry)
+            take(static_cast<Index>(entry.col()), entry.value());
+        };
+        put(row, g, i, values_.data() + first_value_[g]);
+      }
   });
+}
+
+template <class Value>
+template <class Other>
+GroupedRows<Value>::GroupedRows(const GroupedRows<Other>& of)
+    : groups_(of.groups_),
+      columns_(of.columns_),
+      first_run_(of.first_run_),
+      first_value_(of.first_value_) {
+  double largest = 0;
+  for (const Other value : of.values_)
+    largest = std::max(largest, std::abs(static_cast<double>(value)));
+  scale_ = scale_of<Value>(largest / of.scale_);
+  for (const auto& [first, count] : of.runs_) runs_.push_back({first, count});
+  values_.resize(of.values_.size());
+  const double factor = scale_ / of.scale_;
+  std::ranges::transform(of.values_, values_.begin(), [&](Other value) {
+    return static_cast<Value>(factor * static_cast<double>(value));
+  });
+}
+
+template <class Value>
+template <class Other>
+void GroupedRows<Value>::copy(const GroupedRows<Other>& from, const std::vector<char>& groups) {
+  const double factor = scale_ / from.scale_;
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    for (std::size_t v = first_value_[g]; groups[g] != 0 && v < first_value_[g + 1]; ++v)
+      values_[v] = static_cast<Value>(factor * static_cast<double>(from.values_[v]));
 }
 
 /// The columns of a group are those of any of its rows.
@@ -87,25 +124,6 @@ void GroupedRows<Value>::find_columns(const CompressedRows& a) {
         runs_.push_back({column, 1});
     first_run_.push_back(runs_.size());
     first_value_.push_back(first_value_[g] + columns.size() * as_size(size_of(g)));
-  }
-}
-
-template <class Value>
-void GroupedRows<Value>::fill(const CompressedRows& a, std::size_t g) {
-  for (Index i = 0; i < size_of(g); ++i) {
-    Value* value = values_.data() + first_value_[g] + i;
-    const Run* run = runs_.data() + first_run_[g];
-    Index passed = 0;  // columns of the run
-    for (CompressedRows::InnerIterator entry(a, groups_[g] + i); entry; ++entry) {
-      while (run->first + run->count <= entry.col()) {
-        value += static_cast<std::ptrdiff_t>(size_of(g)) * (run->count - passed);
-        passed = 0;
-        ++run;
-      }
-      value += static_cast<std::ptrdiff_t>(size_of(g)) * (entry.col() - run->first - passed);
-      passed = static_cast<Index>(entry.col()) - run->first;
-      *value = static_cast<Value>(scale_ * entry.value());
-    }
   }
 }
 
@@ -140,29 +158,35 @@ void GroupedRows<Value>::multiply(const Eigen::VectorXd& x, core::Crew& crew,
 template <class Value>
 CompressedRows GroupedRows<Value>::as_rows() const {
   CompressedRows a(groups_.back(), columns_);
-  const auto each = [&](const auto& take) {  // row by row
-    for (std::size_t g = 0; g + 1 < groups_.size(); ++g)
-      for (Index i = 0; i < size_of(g); ++i) {
-        const Value* next = values_.data() + first_value_[g] + i;
-        for (std::size_t r = first_run_[g]; r < first_run_[g + 1]; ++r)
-          for (Index k = 0; k < runs_[r].count; ++k, next += size_of(g))
-            if (const Index row = groups_[g] + i, column = runs_[r].first + k;
-                *next != 0 || row == column)
-              take(row, column, static_cast<double>(*next) / scale_);
-      }
-  };
-  each([&](Index row, Index, double) { ++a.outerIndexPtr()[row + 1]; });
+  for_each([&](Index row, Index, double) { ++a.outerIndexPtr()[row + 1]; });
   std::partial_sum(a.outerIndexPtr(), a.outerIndexPtr() + a.rows() + 1, a.outerIndexPtr());
   a.resizeNonZeros(a.outerIndexPtr()[a.rows()]);
   Index next = 0;
-  each([&](Index, Index column, double value) {
+  for_each([&](Index, Index column, double value) {
     a.innerIndexPtr()[next] = column;
     a.valuePtr()[next++] = value;
   });
   return a;
 }
 
+template <class Value>
+Eigen::MatrixXd GroupedRows<Value>::diagonal_block(std::size_t g) const {
+  const Index size = size_of(g), begin = groups_[g];
+  Eigen::MatrixXd block = Eigen::MatrixXd::Zero(size, size);
+  const Value* of_run = values_.data() + first_value_[g];
+  for (std::size_t r = first_run_[g]; r < first_run_[g + 1]; ++r) {
+    const auto& [first, count] = runs_[r];
+    for (Index c = std::max(first, begin); c < std::min(first + count, begin + size); ++c)
+      for (Index i = 0; i < size; ++i)
+        block(i, c - begin) = static_cast<double>(of_run[size * (c - first) + i]) / scale_;
+    of_run += static_cast<std::ptrdiff_t>(size) * count;
+  }
+  return block;
+}
+
 template class GroupedRows<double>;
 template class GroupedRows<float>;
+template GroupedRows<float>::GroupedRows(const GroupedRows<double>&);
+template void GroupedRows<float>::copy(const GroupedRows<double>&, const std::vector<char>&);
 
 }  // namespace osculate::la

@@ -1,5 +1,7 @@
 #pragma once
 #include <Eigen/Core>
+#include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <vector>
 
@@ -22,12 +24,81 @@ class GroupedRows {
  public:
   GroupedRows() = default;
   GroupedRows(const CompressedRows& a, GroupStarts groups, core::Crew& crew);
+  /// The same matrix with entries of this kind.
+  template <class Other>
+  explicit GroupedRows(const GroupedRows<Other>& of);
+  /// Takes the rows of another matrix: the groups in which it differs. False: an entry has no
+  /// place, and no product is to be made before another matrix is assigned.
+  ///
+  /// Input      rows(i, take): calls take(column, value) for what is not zero in row i
+  template <class Rows>
+  bool update(const Rows& rows, core::Crew& crew, std::vector<char>& differs) {
+    differs.assign(groups_.size() - 1, 0);
+    std::atomic<bool> fits = true;
+    crew.share_runs(groups_.size() - 1, groups_at_least, [&](std::size_t begin, std::size_t end) {
+      std::vector<Value> values;
+      for (std::size_t g = begin; g < end && fits; ++g) {
+        values.assign(first_value_[g + 1] - first_value_[g], Value{0});
+        for (Index i = 0; i < size_of(g); ++i)
+          if (!put([&](const auto& take) { rows(groups_[g] + i, take); }, g, i, values.data()))
+            fits = false;
+        if (std::equal(values.begin(), values.end(), values_.begin() + place_of(g))) continue;
+        std::copy(values.begin(), values.end(), values_.begin() + place_of(g));
+        differs[g] = 1;
+      }
+    });
+    return fits;
+  }
+  /// Takes the values of some groups from a matrix with the same places for entries.
+  template <class Other>
+  void copy(const GroupedRows<Other>& from, const std::vector<char>& groups);
   void multiply(const Eigen::VectorXd& x, core::Crew& crew, Eigen::VectorXd& y) const;
   /// Entries that are not zero, and those of the diagonal.
   [[nodiscard]] CompressedRows as_rows() const;
   [[nodiscard]] std::size_t entries() const { return values_.size(); }
+  [[nodiscard]] Index rows() const { return groups_.back(); }
+  [[nodiscard]] const GroupStarts& groups() const { return groups_; }
+  /// Calls take(row, column, value) for what is not zero, and for the diagonal.
+  template <class Take>
+  void for_each(const Take& take) const {
+    for (std::size_t g = 0; g + 1 < groups_.size(); ++g)
+      for (Index i = 0; i < size_of(g); ++i) {
+        const Value* next = values_.data() + first_value_[g] + i;
+        for (std::size_t r = first_run_[g]; r < first_run_[g + 1]; ++r)
+          for (Index k = 0; k < runs_[r].count; ++k, next += size_of(g))
+            if (const Index row = groups_[g] + i, column = runs_[r].first + k;
+                *next != 0 || row == column)
+              take(row, column, static_cast<double>(*next) / scale_);
+      }
+  }
+  /// The same in some columns, of which `before` says how many are below each.
+  ///
+  /// Shapes     before: one more than there are columns
+  template <class Take>
+  void for_each(const std::vector<Index>& before, const Take& take) const {
+    const auto has = [&](Index from, Index to) {
+      return before[as_size(from)] < before[as_size(to)];
+    };
+    for (std::size_t g = 0; g + 1 < groups_.size(); ++g)
+      for (Index i = 0; i < size_of(g); ++i) {
+        const Value* of_run = values_.data() + first_value_[g] + i;
+        for (std::size_t r = first_run_[g]; r < first_run_[g + 1]; ++r) {
+          const auto& [first, count] = runs_[r];
+          for (Index c = first; has(c, first + count); ++c)
+            if (const Value value = of_run[size_of(g) * (c - first)];
+                has(c, c + 1) && (value != 0 || c == groups_[g] + i))
+              take(groups_[g] + i, c, static_cast<double>(value) / scale_);
+          of_run += static_cast<std::ptrdiff_t>(size_of(g)) * count;
+        }
+      }
+  }
+  /// Entries of a group's rows in the columns of the same numbers.
+  [[nodiscard]] Eigen::MatrixXd diagonal_block(std::size_t group) const;
 
  private:
+  template <class Other>
+  friend class GroupedRows;
+  static constexpr std::size_t groups_at_least = 64;  ///< while a thread is told of them
   struct Run {
     Index first, count;
   };
@@ -36,7 +107,24 @@ class GroupedRows {
   }
   void multiply(std::size_t group, const double* x, double* y_of_group) const;
   void find_columns(const CompressedRows& a);
-  void fill(const CompressedRows& a, std::size_t group);
+  [[nodiscard]] std::ptrdiff_t place_of(std::size_t group) const {
+    return static_cast<std::ptrdiff_t>(first_value_[group]);
+  }
+  /// Writes row `i` of a group among the values of the group. False: an entry has no place.
+  template <class Row>
+  bool put(const Row& row, std::size_t group, Index i, Value* values) const {
+    const Run* run = runs_.data() + first_run_[group];
+    const Run* const end = runs_.data() + first_run_[group + 1];
+    const auto rows = static_cast<std::ptrdiff_t>(size_of(group));
+    Value* of_run = values + i;
+    bool fits = true;
+    row([&](Index column, double value) {
+      for (; run != end && run->first + run->count <= column; ++run) of_run += rows * run->count;
+      fits = fits && run != end && column >= run->first;
+      if (fits) of_run[rows * (column - run->first)] = static_cast<Value>(scale_ * value);
+    });
+    return fits;
+  }
 
   GroupStarts groups_{0};
   Index columns_ = 0;

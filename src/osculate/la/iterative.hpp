@@ -15,8 +15,8 @@ namespace osculate::la {
 ///            calls exact, M a cycle of la::Multigrid with the rigid motions of the nodes as near
 ///            null vectors
 /// Between two calls of `begin_anew` the coarser models of the first matrix serve for those that
-/// follow, until they take half as many iterations again, and so do factors of what is exact for
-/// matrices that are like it there (see `alike` in engine.cpp).
+/// follow, also in other increments, until they take half as many iterations again, and so do
+/// factors of what is exact for matrices that are like it there (see `alike` in engine.cpp).
 ///
 /// A matrix is tried with noise, the first after `begin_anew` and after `may_come_loose` the one of
 /// which `sound` asks: where that has no solution, or one that says that hardly a digit is left,
@@ -46,6 +46,7 @@ class Iterative final : public LinearSolver {
   void place(Places places) override;
   void may_change(std::vector<Index> unknowns) override;
   void begin_anew() override;
+  [[nodiscard]] bool passes() const override;
   void may_come_loose() override;
   [[nodiscard]] bool sound() override;
   void aim(double share) override;

@@ -103,8 +103,11 @@ class LinearSolver {
   /// Spent in `factor` and `solve` so far [s].
   [[nodiscard]] virtual double seconds() const = 0;
   [[nodiscard]] virtual IterativeWork work() const { return {}; }
-  /// An increment begins: nothing of earlier matrices may show in the solutions to come.
+  /// Nothing of earlier matrices may show in the solutions to come.
   virtual void begin_anew() {}
+  /// Whether what a solver that iterates has prepared may serve for the matrices of another
+  /// increment: where the first of them is told by `may_come_loose`.
+  [[nodiscard]] virtual bool passes() const { return false; }
   /// What held something in the last matrix may not hold it in those to come. Who ends with one of
   /// them asks `sound`.
   virtual void may_come_loose() {}

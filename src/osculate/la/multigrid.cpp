@@ -21,33 +21,53 @@ struct Level {
   GroupStarts start;                           ///< of own unknowns
   Eigen::MatrixXd near_null;                   ///< likewise
   BlockDiagonal inverse;
-  double largest = 0;  ///< eigenvalue of D^-1 A
+  double largest = 0;        ///< eigenvalue of D^-1 A
+  Eigen::VectorXd stiffest;  ///< about its eigenvector
   Eigen::VectorXd r, d, t, of_coarse;
 
   /// What the smoother needs; false: there are no numbers.
   bool prepare_smoother(const CompressedRows& matrix, core::Crew& crew);
-  void find_largest(core::Crew& crew);
+  bool refresh_smoother(const GroupedRows<double>& matrix, const std::vector<char>* differs,
+                        core::Crew& crew);
+  bool find_largest(int rounds, core::Crew& crew);
   void smooth(Eigen::VectorXd& solution, bool residual_wanted, core::Crew& crew);
 };
 
 bool Level::prepare_smoother(const CompressedRows& matrix, core::Crew& crew) {
+  constexpr int rounds = 15;
   products = {};  // gives its memory back before
   products = GroupedRows<float>(matrix, start, crew);
   inverse = BlockDiagonal(matrix, start, crew);
-  find_largest(crew);
-  return largest > 0 && std::isfinite(largest);
-}
-
-/// By the power method from noise; a little more than it finds.
-void Level::find_largest(core::Crew& crew) {
-  constexpr int rounds = 15;
-  constexpr double more = 1.05;
-  Eigen::VectorXd v(halo.own()), w;
+  stiffest.resize(halo.own());
   std::uint32_t noise = 1;
-  for (double& value : v) {
+  for (double& value : stiffest) {
     noise = noise * 1664525U + 1013904223U;
     value = static_cast<double>(noise >> 8U) / (1U << 24U) - 0.5;
   }
+  return find_largest(rounds, crew);
+}
+
+bool Level::refresh_smoother(const GroupedRows<double>& matrix, const std::vector<char>* differs,
+                             core::Crew& crew) {
+  constexpr int rounds = 5;
+  if (differs) {
+    products.copy(matrix, *differs);
+    inverse.update(matrix, *differs, crew);
+  } else {
+    products = {};
+    products = GroupedRows<float>(matrix);
+    inverse.update(matrix, std::vector<char>(start.size() - 1, 1), crew);
+  }
+  return find_largest(rounds, crew);
+}
+
+/// By the power method from where it ended last, or from noise; a little more than it finds. False:
+/// there are no numbers.
+bool Level::find_largest(int rounds, core::Crew& crew) {
+  constexpr double more = 1.05;
+  Eigen::VectorXd& v = stiffest;
+  Eigen::VectorXd w;
+  largest = 0;
   for (int i = 0; i < rounds; ++i) {
     const double size = halo.norm(v);
     if (!(size > 0) || !std::isfinite(size)) break;
@@ -58,6 +78,7 @@ void Level::find_largest(core::Crew& crew) {
     inverse.apply(w, crew, v);
     largest = more * halo.norm(v);
   }
+  return largest > 0 && std::isfinite(largest);
 }
 
 /// Adds to the solution what a Chebyshev polynomial of D^-1 A makes of its residual `r`, which is
@@ -253,12 +274,12 @@ bool Multigrid::build(CompressedRows&& a, Halo halo, GroupStarts groups,
   return last.all(report.status == SolveStatus::ok);
 }
 
-bool Multigrid::refresh(const CompressedRows& a, Halo halo) {
+bool Multigrid::refresh(const GroupedRows<double>& a, const std::vector<char>* differs, Halo halo) {
   Impl& s = *impl_;
-  const bool same = s.coarsest && s.levels.size() > 1 && s.levels[0]->start.back() == a.rows();
+  const bool same = s.coarsest && s.levels.size() > 1 && s.levels[0]->halo.own() == halo.own();
   if (!halo.all(same)) return false;
   s.levels[0]->halo = std::move(halo);
-  return s.levels[0]->prepare_smoother(a, s.crew);
+  return s.levels[0]->refresh_smoother(a, differs, s.crew);
 }
 
 bool Multigrid::Impl::cycle(std::size_t level, const Eigen::VectorXd& b, Eigen::VectorXd& x) {

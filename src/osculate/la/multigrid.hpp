@@ -1,9 +1,11 @@
 #pragma once
 #include <Eigen/Core>
 #include <memory>
+#include <vector>
 
 #include "osculate/core/crew.hpp"
 #include "osculate/la/aggregates.hpp"
+#include "osculate/la/grouped_rows.hpp"
 #include "osculate/la/halo.hpp"
 
 namespace osculate::la {
@@ -36,9 +38,12 @@ class Multigrid {
   ///            unknown. Unknowns of rows of zeros are in no coarser model; groups whose block is
   ///            not positive definite are not smoothed either
   bool build(CompressedRows&& a, Halo halo, GroupStarts groups, Eigen::MatrixXd near_null);
-  /// Takes another matrix of the same unknowns, near to the one that it was built of: the coarser
+  /// Takes another matrix of the same groups, near to the one that it was built of: the coarser
   /// models stay. False: it has to be built.
-  bool refresh(const CompressedRows& a, Halo halo);
+  ///
+  /// Input      differs: groups in which it is not that of the last call, where both have the same
+  ///            places for entries; null: they may have others
+  bool refresh(const GroupedRows<double>& a, const std::vector<char>* differs, Halo halo);
   /// One cycle from zero, on own unknowns. False: no numbers came out.
   bool apply(Eigen::VectorXd& rhs_in_solution_out);
   /// Entries of all matrices over those of the finest.

@@ -140,6 +140,18 @@ void MatrixBuilder::clear(std::span<const Index> rows) {
               matrix_.value.begin() + matrix_.row_start[at(i) + 1], 0.0);
 }
 
+void MatrixBuilder::keep_values() {
+  merge();
+  kept_ = matrix_.value;
+}
+
+bool MatrixBuilder::restore_values() {
+  merge();
+  if (kept_.empty()) return false;
+  std::ranges::copy(kept_, matrix_.value.begin());
+  return true;
+}
+
 void MatrixBuilder::add(Index row, Index column, double value) {
   if (!here(row)) return;
   if (double* entry = find(row, column))
@@ -380,6 +392,7 @@ void MatrixBuilder::grow() {
   blocks_.clear();
   block_unknowns_.clear();
   pending_.clear();
+  kept_ = {};
   matrix_ = std::move(grown);
   ++version_;
 }

@@ -70,6 +70,11 @@ class MatrixBuilder {
   void clear();
   /// The same in some rows alone: what was added to others is still there.
   void clear(std::span<const Index> rows);
+  /// Remembers all values as they stand, for as long as the pattern stays.
+  void keep_values();
+  /// Sets all values to those that were kept; false: there are none of this pattern.
+  [[nodiscard]] bool restore_values();
+  void forget_values() { kept_ = {}; }
   /// Entries outside the pattern are kept aside until `finish`.
   void add(Index row, Index column, double value);
   /// Adds a dense block, entry by entry as `add` does, but searches hardly at all: columns that are
@@ -123,6 +128,7 @@ class MatrixBuilder {
   void grow();
 
   SparseMatrix matrix_;
+  std::vector<double> kept_;           ///< by `keep_values`; empty: none
   std::vector<bool> mine_;             ///< by row; empty: all
   std::vector<Block> blocks_;          ///< reserved, not yet in the pattern
   std::vector<Index> block_unknowns_;  ///< of these

@@ -29,8 +29,12 @@ bool is_linear(const BasicBulkSection<Dim>& section) {
 template <int Dim>
 bool is_constant(const BasicModel<Dim>& model, const BasicDofSpace<Dim>& dofs,
                  const BasicBulkSection<Dim>& section, const mesh::CellRef& cell) {
-  return is_linear(section) && std::ranges::none_of(cell_nodes(model.mesh, cell).nodes,
-                                                    [&](Index n) { return dofs.body_of(n) >= 0; });
+  return is_linear(section) &&
+         std::ranges::none_of(cell_nodes(model.mesh, cell).nodes, [&](Index n) {
+           for (int i = 0; i < Dim; ++i)
+             if (dofs.turns(dofs.node_dof(n, i))) return true;
+           return false;
+         });
 }
 
 template <int Dim>

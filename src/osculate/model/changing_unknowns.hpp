@@ -11,7 +11,7 @@ template <int Dim>
 [[nodiscard]] bool is_linear(const BasicBulkSection<Dim>& section);
 
 /// Whether a cell has the same stiffness in all states of a model: its forces are linear in the
-/// displacements, and no rigid body turns its nodes.
+/// displacements, and no rigid body turns its nodes, nor what they follow by equations.
 template <int Dim>
 [[nodiscard]] bool is_constant(const BasicModel<Dim>& model, const BasicDofSpace<Dim>& dofs,
                                const BasicBulkSection<Dim>& section, const mesh::CellRef& cell);

@@ -1,5 +1,7 @@
 #include "osculate/model/dof_space.hpp"
 
+#include <algorithm>
+
 namespace osculate::model {
 
 template <int Dim>
@@ -60,6 +62,17 @@ void BasicDofSpace<Dim>::expand(Dof dof, double factor, std::span<const Vec<Dim>
     const double value = gradient(dof % Dim, component);
     if (value != 0.0) expand(body_dof(b, component), factor * value, x, rigid, out);
   }
+}
+
+template <int Dim>
+bool BasicDofSpace<Dim>::turns(Dof dof) const {
+  const auto d = static_cast<std::size_t>(dof);
+  if (unknown_of_[d] >= 0) return false;
+  if (equation_of_[d] >= 0)
+    return std::ranges::any_of(
+        std::span(equations_[static_cast<std::size_t>(equation_of_[d])].terms).subspan(1),
+        [&](const Equation::Term& term) { return turns(term.dof); });
+  return dof < Dim * nodes_ && body_of_node_[static_cast<std::size_t>(dof / Dim)] >= 0;
 }
 
 template class BasicDofSpace<2>;

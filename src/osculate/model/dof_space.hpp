@@ -69,6 +69,8 @@ class BasicDofSpace {
   void expand(Dof dof, double factor, std::span<const Vec<Dim>> x,
               const std::vector<body::BasicRigidMotion<Dim>>& rigid,
               std::vector<Expansion>& out) const;
+  /// Whether that changes as bodies turn: the dof is of a node of one, or follows one by equations.
+  [[nodiscard]] bool turns(Dof dof) const;
 
  private:
   Index nodes_, bodies_, unknowns_ = 0;

@@ -201,8 +201,8 @@ class Condensation {
     return of_all(system, committed, time, options, solver, guess);
   }
 
-  /// With all unknowns, and by the factors of the last attempt where that has converged. Coarser
-  /// models of a solver that iterates do not pass from one attempt to the next.
+  /// With all unknowns, and by the factors of the last attempt where that has converged, or by the
+  /// coarser models of a solver that iterates.
   Result of_all(S& system, const typename S::State& committed, double time,
                 const NewtonOptions& options, la::LinearSolver& solver, const Guess& guess,
                 const typename S::Trial* warm = nullptr) {
@@ -211,8 +211,8 @@ class Condensation {
     else
       former_ = detail::FormerFactors(options.residual);
     Result result = solve::newton(system, committed, time, options, solver, guess, warm, &former_);
-    passes_ = result.outcome == Outcome::converged && !guess.resisted && former_.serve() &&
-              !solver.asks_for_places();
+    passes_ = result.outcome == Outcome::converged && !guess.resisted &&
+              (solver.asks_for_places() ? solver.passes() : former_.serve());
     return result;
   }
 

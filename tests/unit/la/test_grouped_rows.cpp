@@ -92,5 +92,73 @@ TEST(GroupedRows, OfSinglePrecisionAreALinearMapNearToTheMatrix) {
   }
 }
 
+/// What `GroupedRows::update` reads.
+auto rows_of(const CompressedRows& a) {
+  return [&a](Index i, const auto& take) {
+    for (CompressedRows::InnerIterator entry(a, i); entry; ++entry)
+      if (entry.value() != 0) take(static_cast<Index>(entry.col()), entry.value());
+  };
+}
+
+TEST(GroupedRows, TakeTheValuesOfAMatrixWhoseEntriesHavePlaces) {
+  core::Crew one(1), two(2);
+  const CompressedRows a = irregular(of_all_sizes, 23);
+  CompressedRows b = a;
+  const auto first_of = [&](Index row) { return b.valuePtr() + b.outerIndexPtr()[row]; };
+  *first_of(3) = 7;       // alone in its group
+  first_of(15)[1] = 0;    // the last row of a group
+  first_of(30)[2] *= -2;  // of the last group
+  const Eigen::VectorXd x = values(23);
+  Eigen::VectorXd expected, y;
+  multiply(b, x, one, expected);
+  for (core::Crew* crew : {&one, &two}) {
+    GroupedRows<double> grouped(a, of_all_sizes, *crew);
+    GroupedRows<float> rounded(grouped);
+    std::vector<char> differs;
+    ASSERT_TRUE(grouped.update(rows_of(b), *crew, differs));
+    EXPECT_EQ(differs, (std::vector<char>{0, 1, 0, 0, 0, 1, 0, 0, 1}));
+    grouped.multiply(x, *crew, y);
+    EXPECT_EQ(y, expected);
+    rounded.copy(grouped, differs);
+    Eigen::VectorXd by_copy, anew;
+    rounded.multiply(x, *crew, by_copy);
+    GroupedRows<float>(b, of_all_sizes, *crew).multiply(x, *crew, anew);
+    EXPECT_EQ(by_copy, anew);
+    ASSERT_TRUE(grouped.update(rows_of(a), *crew, differs)) << "what became zero keeps its place";
+    EXPECT_EQ(Eigen::MatrixXd(grouped.as_rows()), Eigen::MatrixXd(a));
+    ASSERT_TRUE(grouped.update(rows_of(a), *crew, differs));
+    EXPECT_EQ(std::ranges::count(differs, 0), 9);
+  }
+}
+
+TEST(GroupedRows, TakeNoEntryThatHasNoPlace) {
+  core::Crew crew(1);
+  const CompressedRows a = irregular(of_all_sizes, 23);
+  for (const Index row : {0, 13, 30})
+    for (const Index column : {0, 11, 22}) {
+      Index group = 0;
+      while (of_all_sizes[as_size(group + 1)] <= row) ++group;
+      bool taken = false;
+      for (Index i = of_all_sizes[as_size(group)]; i < of_all_sizes[as_size(group + 1)]; ++i)
+        taken = taken || a.coeff(i, column) != 0;
+      CompressedRows b = a;
+      b.coeffRef(row, column) = 3;
+      GroupedRows<double> grouped(a, of_all_sizes, crew);
+      std::vector<char> differs;
+      EXPECT_EQ(grouped.update(rows_of(b), crew, differs), taken) << row << ", " << column;
+    }
+}
+
+TEST(GroupedRows, KnowTheBlocksOfTheirDiagonal) {
+  core::Crew crew(1);
+  const CompressedRows a = irregular(of_all_sizes, 31);
+  const GroupedRows<double> grouped(a, of_all_sizes, crew);
+  const Eigen::MatrixXd dense(a);
+  for (std::size_t g = 0; g + 1 < of_all_sizes.size(); ++g) {
+    const Index begin = of_all_sizes[g], size = of_all_sizes[g + 1] - begin;
+    EXPECT_EQ(grouped.diagonal_block(g), dense.block(begin, begin, size, size)) << g;
+  }
+}
+
 }  // namespace
 }  // namespace osculate::la

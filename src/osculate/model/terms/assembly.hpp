@@ -27,6 +27,11 @@ struct Assembly {
   template <class Block>
   void add_stiffness(std::span<const Dof> block_dofs, const Block& k, std::size_t corner = 0) {
     assembler.add_block(block_dofs, k, corner);
+    predict(block_dofs, k);
+  }
+  /// The tangent times the prescribed increment alone.
+  template <class Block>
+  void predict(std::span<const Dof> block_dofs, const Block& k) {
     if (!inc) return;
     for (std::size_t j = 0; j < block_dofs.size(); ++j) {
       const double du = (*inc)[block_dofs[j]];

@@ -19,7 +19,9 @@ template <int Dim>
 BulkTerm<Dim>::BulkTerm(const BasicModel<Dim>& m, const BasicDofSpace<Dim>& dofs, int thread_count)
     : model(m), threads(thread_count), crew(thread_count) {
   for_each_cell(model, [&](const auto& section, const mesh::CellRef& cell, const CellMemory& of) {
-    (is_constant(model, dofs, section, cell) ? constant : others).push_back(jobs.size());
+    const bool same = is_constant(model, dofs, section, cell);
+    (same ? constant : others).push_back(jobs.size());
+    stays.push_back(same ? 1 : 0);
     jobs.push_back({&section, cell, of});
     linear.add(section, cell_nodes(model.mesh, cell).type);
   });
@@ -97,22 +99,29 @@ void BulkTerm<Dim>::exchange_memory(const core::Ranks& among, std::span<const st
 }
 
 template <int Dim>
-bool BulkTerm<Dim>::add_cells(const State& committed, const State& trial, double duration,
-                              const CellInertia<Dim>* inertia, Assembly<Dim>& to,
-                              solve::Evaluation& out, std::size_t& failed) {
-  const bool every = !ranks && which == Cells::all;
+typename BulkTerm<Dim>::Numbers BulkTerm<Dim>::cells_here() const {
+  if (!ranks && which == Cells::all) return {nullptr, jobs.size()};
   const std::vector<std::size_t>& some = ranks                      ? shares.cells
                                          : which == Cells::constant ? constant
                                                                     : others;
-  const std::size_t cells = every ? jobs.size() : some.size();
-  const auto number = [&](std::size_t i) { return every ? i : some[i]; };
-  for (std::size_t start = 0; start < cells; start += blocks.size()) {
-    const std::size_t count = std::min(blocks.size(), cells - start);
+  return {&some, some.size()};
+}
+
+template <int Dim>
+template <class WithTangent, class Take>
+bool BulkTerm<Dim>::evaluate_in_order(const Numbers& cells, const State& committed,
+                                      const State& trial, double duration, Evaluated<Dim>& into,
+                                      solve::Evaluation& out, std::size_t& failed,
+                                      const WithTangent& with_tangent, const Take& take) {
+  for (std::size_t start = 0; start < cells.count; start += blocks.size()) {
+    const std::size_t count = std::min(blocks.size(), cells.count - start);
     const Stopwatch watch;
     crew.share_runs(count, worth_it, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i)
-        evaluate(number(start + i), trial.u, committed.memory, to.into.memory, duration,
-                 to.with_tangent, blocks[i]);
+      for (std::size_t i = begin; i < end; ++i) {
+        const std::size_t job = cells[start + i];
+        evaluate(job, trial.u, committed.memory, into.memory, duration, with_tangent(job),
+                 blocks[i]);
+      }
     });
     seconds += watch.seconds();
     for (std::size_t i = 0; i < count; ++i) {
@@ -120,21 +129,61 @@ bool BulkTerm<Dim>::add_cells(const State& committed, const State& trial, double
       if (!block.ok) {
         out.ok = false;
         out.message = block.message;
-        failed = number(start + i);
+        failed = cells[start + i];
         return false;
       }
-      if (block.dof_count == 0) continue;
-      const std::span<const Dof> d(block.dofs.data(), static_cast<std::size_t>(block.dof_count));
-      for (int k = 0; k < block.dof_count; ++k)
-        to.into.forces.internal[d[static_cast<std::size_t>(k)]] += block.result.force[k];
-      if (!to.with_tangent) continue;
-      for (int k = 0; diagonal && k < block.dof_count; ++k)
-        (*diagonal)[d[static_cast<std::size_t>(k)]] += std::abs(block.result.tangent(k, k));
-      if (inertia) inertia->add_to(number(start + i), block.result.tangent);
-      to.add_stiffness(d, block.result.tangent);
+      if (block.dof_count > 0) take(cells[start + i], block);
     }
   }
   return true;
+}
+
+template <int Dim>
+bool BulkTerm<Dim>::add_cells(const State& committed, const State& trial, double duration,
+                              const CellInertia<Dim>* inertia, Assembly<Dim>& to,
+                              solve::Evaluation& out, std::size_t& failed) {
+  const auto dofs_of = [](const BasicBulkBlock<Dim>& block) {
+    return std::span<const Dof>(block.dofs.data(), static_cast<std::size_t>(block.dof_count));
+  };
+  const Numbers cells = cells_here();
+  // What most cells add to the matrix is the same each time: it is kept in sum.
+  const bool apart = to.with_tangent && which == Cells::all && !inertia && !diagonal &&
+                     !constant.empty() && constant.size() >= others.size();
+  if (apart && !to.builder.restore_values()) {
+    const bool added = evaluate_in_order(
+        cells, committed, trial, duration, to.into, out, failed,
+        [&](std::size_t job) { return stays[job] != 0; },
+        [&](std::size_t job, const BasicBulkBlock<Dim>& block) {
+          if (stays[job] != 0) to.assembler.add_block(dofs_of(block), block.result.tangent);
+        });
+    if (!added) return false;
+    to.builder.keep_values();
+  }
+  const auto is_led = [&](std::size_t job) {  // its tangent predicts what follows from that
+    const auto& nodes = cell_nodes(model.mesh, jobs[job].cell).nodes;
+    return to.inc && std::ranges::any_of(nodes, [&](Index n) {
+             return !to.inc->template segment<Dim>(to.dofs.node_dof(n, 0)).isZero(0);
+           });
+  };
+  return evaluate_in_order(
+      cells, committed, trial, duration, to.into, out, failed,
+      [&](std::size_t job) {
+        return to.with_tangent && (!apart || stays[job] == 0 || is_led(job));
+      },
+      [&](std::size_t job, BasicBulkBlock<Dim>& block) {
+        const std::span<const Dof> d = dofs_of(block);
+        for (int k = 0; k < block.dof_count; ++k)
+          to.into.forces.internal[d[static_cast<std::size_t>(k)]] += block.result.force[k];
+        if (!to.with_tangent) return;
+        if (apart && stays[job] != 0) {
+          if (is_led(job)) to.predict(d, block.result.tangent);
+          return;
+        }
+        for (int k = 0; diagonal && k < block.dof_count; ++k)
+          (*diagonal)[d[static_cast<std::size_t>(k)]] += std::abs(block.result.tangent(k, k));
+        if (inertia) inertia->add_to(job, block.result.tangent);
+        to.add_stiffness(d, block.result.tangent);
+      });
 }
 
 template <int Dim>

@@ -36,6 +36,7 @@ struct BulkTerm {
   core::Crew crew;
   std::vector<Job> jobs;
   LinearCells<Dim> linear;  ///< by job
+  std::vector<char> stays;  ///< by job: constant ones
   std::vector<BasicBulkBlock<Dim>> blocks;
   Cells which = Cells::all;                   ///< what `add` is of
   std::vector<std::size_t> constant, others;  ///< numbers of jobs
@@ -80,6 +81,19 @@ struct BulkTerm {
   void add_stresses(const Strained& at, const Strained* less, Assembly<Dim>& to);
 
  private:
+  /// Numbers of jobs, in their order.
+  struct Numbers {
+    const std::vector<std::size_t>* some;  ///< null: all
+    std::size_t count;
+    [[nodiscard]] std::size_t operator[](std::size_t i) const { return some ? (*some)[i] : i; }
+  };
+  [[nodiscard]] Numbers cells_here() const;
+  /// Evaluates cells in parallel, tile by tile, and hands them over in order: take(job, block).
+  /// `failed`: the first that cannot be evaluated, and `out` says why; nothing more is handed over.
+  template <class WithTangent, class Take>
+  bool evaluate_in_order(const Numbers& cells, const State& committed, const State& trial,
+                         double duration, Evaluated<Dim>& into, solve::Evaluation& out,
+                         std::size_t& failed, const WithTangent& with_tangent, const Take& take);
   bool add_cells(const State& committed, const State& trial, double duration,
                  const CellInertia<Dim>* inertia, Assembly<Dim>& to, solve::Evaluation& out,
                  std::size_t& failed);
