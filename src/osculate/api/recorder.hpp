@@ -430,8 +430,9 @@ struct Recorder {
     const std::vector<Vec<Dim>> x = system.positions(state);
     double largest = 0;
     for (std::size_t k = 0; k < built.model.pairs.size(); ++k)
-      largest = std::max(largest, pairing::curvature_share<Dim>(built.model.pairs[k].definition, x,
-                                                                system.contact()[k]));
+      largest = std::max(largest, pairing::curvature_share<Dim>(
+                                      built.model.pairs[k].definition, x, system.contact()[k],
+                                      {false, true, true, true}, built.options.threads));
     return largest;
   }
 

@@ -24,6 +24,7 @@ namespace osculate::pairing {
 template <int Dim>
 [[nodiscard]] double curvature_share(const PairDefinition<Dim>& pair, Points<Dim> x,
                                      const PairEvaluation<Dim>& evaluation,
-                                     const contact::TangentForm& parts = {false, true, true, true});
+                                     const contact::TangentForm& parts = {false, true, true, true},
+                                     int threads = 1);
 
 }  // namespace osculate::pairing

@@ -107,6 +107,53 @@ TEST(ChangingUnknowns, AllElseIsConstant) {
   }
 }
 
+// What cells of constant stiffness add is kept in sum, as long as the same unknowns are free.
+TEST(ChangingUnknowns, KeptSumsAreThoseOfAnotherSystem) {
+  for (const std::string& text :
+       {blocks(linear, friction), blocks("{neo_hooke: {E: 200, nu: 0.3}}", friction),
+        blocks("{neo_hooke: {E: 200, nu: 0.3}}", friction, "equal: [{on: low.left, of: ux}]\n")}) {
+    SCOPED_TRACE(text);
+    const Description d = parse_model(text, "model.yaml");
+    const Built built = build(d, load_mesh(d));
+    ASSERT_NE(built.model.steps[0].prescribed.size(), 0U);
+    model::Step other = built.model.steps[0];
+    other.prescribed.pop_back();
+    model::System used(built.model, 1);
+    const model::State start = used.initial_state();
+    solve::Evaluation out;
+    const auto stiffness = [](model::System& system) {
+      auto found = entries(system.matrix());
+      std::erase_if(found, [](const auto& entry) { return entry.second == 0; });
+      return found;
+    };
+    const auto look = [&](model::System& system, const model::Step& step, double size) {
+      system.begin_step(step, start);
+      Eigen::VectorXd du(system.unknowns());
+      for (Eigen::Index i = 0; i < du.size(); ++i)
+        du[i] = size * std::sin(1.3 * static_cast<double>(i));
+      const model::Trial moved = system.apply(start, du, 0.5, 1.0);
+      system.evaluate(start, moved, 0.5, true, out);
+      EXPECT_TRUE(out.ok) << out.message;
+      return stiffness(system);
+    };
+    for (const auto& [step, size] :
+         {std::pair(&built.model.steps[0], 0.0), std::pair(&built.model.steps[0], 0.01),
+          std::pair(&built.model.steps[0], 0.02),
+          std::pair<const model::Step*, double>(&other, 0.02)}) {
+      const auto once = look(used, *step, size);
+      solve::Evaluation again;
+      used.predict(start, 0.5, again);
+      EXPECT_TRUE(again.ok);
+      model::System fresh(built.model, 1);
+      EXPECT_EQ(once, look(fresh, *step, size)) << size;
+      solve::Evaluation predicted;
+      fresh.predict(start, 0.5, predicted);
+      EXPECT_EQ(stiffness(used), stiffness(fresh));
+      EXPECT_EQ(again.residual, predicted.residual);
+    }
+  }
+}
+
 TEST(ChangingUnknowns, AnalysesGiveTheSameResults) {
   for (const std::string& text : models()) {
     SCOPED_TRACE(text);

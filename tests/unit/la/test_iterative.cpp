@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "elastic_block.hpp"
 
@@ -84,6 +86,48 @@ TEST(Iterative, BitsDoNotDependOnThreadsNorOnWhatWasSolvedBefore) {
   ASSERT_EQ(used.factor(block.matrix(), 1, Symmetry::unsymmetric).status, SolveStatus::ok);
   ASSERT_EQ(used.solve(x), SolveStatus::ok);
   EXPECT_EQ(x, one.x);
+}
+
+TEST(Iterative, BitsDoNotDependOnThreadsWhereFewRowsChange) {
+  std::vector<Eigen::VectorXd> first;
+  for (const int threads : {1, 2}) {
+    Iterative solver;
+    Places places = pressed(1, 0).places();
+    places.threads = threads;
+    solver.place(places);
+    std::vector<Eigen::VectorXd> found;
+    for (const auto& [stiff, friction] :
+         {std::pair(1e3, 0.3), std::pair(1e3, 0.3), std::pair(1e2, 0.2), std::pair(0.0, 0.0)})
+      for (const Symmetry kind : {Symmetry::unsymmetric, Symmetry::indefinite}) {
+        const ElasticBlock block = pressed(stiff, kind == Symmetry::unsymmetric ? friction : 0.0);
+        ASSERT_EQ(solver.factor(block.matrix(), 1, kind).status, SolveStatus::ok);
+        found.push_back(load(block));
+        ASSERT_EQ(solver.solve(found.back()), SolveStatus::ok);
+        EXPECT_LE(relative_residual(block.matrix(), found.back(), load(block)), 1.001e-10);
+      }
+    if (first.empty()) first = found;
+    EXPECT_EQ(found, first);
+    EXPECT_EQ(solver.work().given_up, 0);
+  }
+}
+
+TEST(Iterative, PassesWhatItHasPreparedUnlessSomethingWasFree) {
+  const ElasticBlock held = pressed(1e3, 0.3), loose(width, width, width, false);
+  Iterative solver;
+  EXPECT_FALSE(solver.passes());
+  solver.place(held.places());
+  ASSERT_EQ(solver.factor(held.matrix(), 1, Symmetry::unsymmetric).status, SolveStatus::ok);
+  EXPECT_TRUE(solver.passes());
+  solver.may_come_loose();
+  EXPECT_TRUE(solver.passes());
+  ASSERT_EQ(solver.factor(loose.matrix(), 1, Symmetry::unsymmetric).status, SolveStatus::ok);
+  EXPECT_FALSE(solver.sound());
+  EXPECT_FALSE(solver.passes());
+  solver.begin_anew();
+  ASSERT_EQ(solver.factor(held.matrix(), 1, Symmetry::unsymmetric).status, SolveStatus::ok);
+  EXPECT_TRUE(solver.passes());
+  EXPECT_EQ(solver.factor(loose.matrix(), 1, Symmetry::unsymmetric).status, SolveStatus::singular);
+  EXPECT_FALSE(solver.passes());
 }
 
 TEST(Iterative, CoarserModelsServeForMatricesThatAreNear) {

@@ -117,6 +117,29 @@ TEST(MatrixBuilder, clear_keeps_the_pattern_of_what_was_aside) {
   EXPECT_EQ(k.value, (std::vector<double>{0, 0, 0}));
 }
 
+TEST(MatrixBuilder, kept_values_come_back_as_long_as_the_pattern_stays) {
+  MatrixBuilder m(3);
+  EXPECT_FALSE(m.restore_values()) << "nothing was kept";
+  m.add(0, 1, 3.0);
+  m.add(2, 2, 0.1);
+  m.keep_values();
+  const std::vector<double> kept = m.finish().value;
+  EXPECT_EQ(kept, (std::vector<double>{0, 3, 0, 0.1}));
+  m.add(0, 0, 5.0);
+  m.add(2, 2, 0.2);
+  ASSERT_TRUE(m.restore_values());
+  EXPECT_EQ(m.finish().value, kept);
+  m.clear();
+  ASSERT_TRUE(m.restore_values());
+  EXPECT_EQ(m.finish().value, kept);
+  m.add(1, 2, 4.0);
+  EXPECT_FALSE(m.restore_values()) << "that waits for its place";
+  m.keep_values();
+  EXPECT_TRUE(m.restore_values());
+  m.forget_values();
+  EXPECT_FALSE(m.restore_values());
+}
+
 TEST(SparseMatrix, product_equals_the_dense_one) {
   MatrixBuilder m = test::grid(5, 3, true);
   const SparseMatrix& k = m.finish();

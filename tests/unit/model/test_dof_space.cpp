@@ -99,6 +99,24 @@ TEST(DofSpace, ExpandsEquationsAndRigidNodes) {
   EXPECT_EQ(s.expand(7, 2.0), (Map{{16, 2.0}, {17, 0.5}}));
 }
 
+TEST(DofSpace, KnowsWhatTurnsWithARigidBody) {
+  const Sample s;
+  EXPECT_TRUE(s.dofs.turns(6)) << "of a node of a body";
+  EXPECT_FALSE(s.dofs.turns(3)) << "follows the translation of a body";
+  EXPECT_FALSE(s.dofs.turns(10));
+  EXPECT_FALSE(s.dofs.turns(4)) << "of nobody";
+  EXPECT_FALSE(s.dofs.turns(14)) << "the body's own";
+  // u_5y follows u_2x, which follows a node of a body.
+  const DofSpace chain{6,
+                       {-1, -1, -1, 1, 1, -1},
+                       2,
+                       {{{{11, 1.0}, {0, 1.0}, {4, 3.0}}, 0}, {{{4, 2.0}, {6, 1.0}}, 0}},
+                       {true, true, true, false, false, true}};
+  EXPECT_TRUE(chain.turns(11));
+  EXPECT_TRUE(chain.turns(4));
+  EXPECT_FALSE(chain.turns(0));
+}
+
 /// T^T K T with the prescribed rows and columns left out, against a dense product.
 TEST(Assembler, AddsWhatADenseProductGives) {
   const Sample s;

@@ -147,7 +147,7 @@ bool BulkTerm<Dim>::add_cells(const State& committed, const State& trial, double
   };
   const Numbers cells = cells_here();
   // What most cells add to the matrix is the same each time: it is kept in sum.
-  const bool apart = to.with_tangent && which == Cells::all && !inertia && !diagonal &&
+  const bool apart = to.with_tangent && which == Cells::all && !inertia &&
                      !constant.empty() && constant.size() >= others.size();
   if (apart && !to.builder.restore_values()) {
     const bool added = evaluate_in_order(
@@ -168,19 +168,19 @@ bool BulkTerm<Dim>::add_cells(const State& committed, const State& trial, double
   return evaluate_in_order(
       cells, committed, trial, duration, to.into, out, failed,
       [&](std::size_t job) {
-        return to.with_tangent && (!apart || stays[job] == 0 || is_led(job));
+        return to.with_tangent && (!apart || stays[job] == 0 || diagonal || is_led(job));
       },
       [&](std::size_t job, BasicBulkBlock<Dim>& block) {
         const std::span<const Dof> d = dofs_of(block);
         for (int k = 0; k < block.dof_count; ++k)
           to.into.forces.internal[d[static_cast<std::size_t>(k)]] += block.result.force[k];
         if (!to.with_tangent) return;
+        for (int k = 0; diagonal && k < block.dof_count; ++k)
+          (*diagonal)[d[static_cast<std::size_t>(k)]] += std::abs(block.result.tangent(k, k));
         if (apart && stays[job] != 0) {
           if (is_led(job)) to.predict(d, block.result.tangent);
           return;
         }
-        for (int k = 0; diagonal && k < block.dof_count; ++k)
-          (*diagonal)[d[static_cast<std::size_t>(k)]] += std::abs(block.result.tangent(k, k));
         if (inertia) inertia->add_to(job, block.result.tangent);
         to.add_stiffness(d, block.result.tangent);
       });
