@@ -105,7 +105,8 @@ struct Output {
   std::vector<HistoryRequest> history;
   bool report = true, compress = true;
   bool contact_points = false;  ///< tables of them beside the fields
-  /// Every so many increments; 0: never; nothing: after each, of small models after each tenth.
+  /// Every so many increments; 0: never; nothing: after each of large models, after each tenth or
+  /// fifth of others.
   std::optional<int> checkpoint;
   std::vector<Plot> plots;
   std::vector<AnswerRequest> frd, dat;

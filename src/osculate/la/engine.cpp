@@ -250,18 +250,17 @@ class MultigridEngine final : public Engine {
   }
   Nearby solve(const PreconditionedLimits& limits, Eigen::VectorXd& rhs) override {
     PreconditionedSolutions by(
-        [this](const Eigen::VectorXd& x, Eigen::VectorXd& y) {
-          if (!part_.dealt.ranks) return a_.multiply(x, *crew_, y);
-          Eigen::VectorXd here = x;
-          here.conservativeResize(part_.halo.here());
-          part_.halo.update(here);
-          a_.multiply(here, *crew_, y);
-        },
+        [this](const Eigen::VectorXd& x, Eigen::VectorXd& y) { multiply_own(x, y); },
         [this](Eigen::VectorXd& r) { return precondition(r); }, part_.dealt.ranks);
     Eigen::VectorXd own = part_.own(rhs);
     const Nearby done = by.solve(limits, own);
     if (done.solved) rhs = part_.all(std::move(own));
     return done;
+  }
+  [[nodiscard]] Eigen::VectorXd times(const Eigen::VectorXd& x) override {
+    Eigen::VectorXd own;
+    multiply_own(part_.own(x), own);
+    return part_.all(std::move(own));
   }
   [[nodiscard]] Eigen::VectorXd diagonal() const override { return diagonal_; }
   [[nodiscard]] SparseMatrix matrix() const override {
@@ -293,7 +292,7 @@ class MultigridEngine final : public Engine {
         for (Index e = k.row_start[as_size(i)]; e < k.row_start[as_size(i) + 1]; ++e)
           if (k.value[as_size(e)] != 0) take(k.column[as_size(e)], k.value[as_size(e)]);
       };
-      fits = may && a_.update(rows, *crew_, differs);
+      fits = may && a_.rows() == k.n && a_.update(rows, *crew_, differs);
       if (!fits) a_ = {};
       if (!fits) take(take_part(k, symmetry), places);
     } else {
@@ -329,6 +328,13 @@ class MultigridEngine final : public Engine {
       own.segment(a_.groups()[g], of.size()) = of;
     }
     diagonal_ = part_.all(std::move(own));
+  }
+  void multiply_own(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
+    if (!part_.dealt.ranks) return a_.multiply(x, *crew_, y);
+    Eigen::VectorXd here = x;
+    here.conservativeResize(part_.halo.here());
+    part_.halo.update(here);
+    a_.multiply(here, *crew_, y);
   }
   bool precondition(Eigen::VectorXd& own) {
     Eigen::VectorXd few;

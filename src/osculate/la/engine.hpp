@@ -32,6 +32,8 @@ class Engine {
   /// Returns    as PreconditionedSolutions
   virtual Nearby solve(const PreconditionedLimits& limits,
                        Eigen::VectorXd& rhs_in_solution_out) = 0;
+  /// A x
+  [[nodiscard]] virtual Eigen::VectorXd times(const Eigen::VectorXd& x) = 0;
   /// Sizes of the diagonal entries of the matrix.
   [[nodiscard]] virtual Eigen::VectorXd diagonal() const = 0;
   /// The matrix, both triangles.

@@ -33,23 +33,29 @@ struct Level {
   void smooth(Eigen::VectorXd& solution, bool residual_wanted, core::Crew& crew);
 };
 
+/// Always the same numbers, of size 1 together.
+Eigen::VectorXd unit_noise(Index n) {
+  Eigen::VectorXd v(n);
+  std::uint32_t noise = 1;
+  for (double& value : v) {
+    noise = noise * 1664525U + 1013904223U;
+    value = static_cast<double>(noise >> 8U) / (1U << 24U) - 0.5;
+  }
+  return v / std::max(v.norm(), 1e-300);
+}
+
 bool Level::prepare_smoother(const CompressedRows& matrix, core::Crew& crew) {
   constexpr int rounds = 15;
   products = {};  // gives its memory back before
   products = GroupedRows<float>(matrix, start, crew);
   inverse = BlockDiagonal(matrix, start, crew);
-  stiffest.resize(halo.own());
-  std::uint32_t noise = 1;
-  for (double& value : stiffest) {
-    noise = noise * 1664525U + 1013904223U;
-    value = static_cast<double>(noise >> 8U) / (1U << 24U) - 0.5;
-  }
+  stiffest = unit_noise(halo.own());
   return find_largest(rounds, crew);
 }
 
 bool Level::refresh_smoother(const GroupedRows<double>& matrix, const std::vector<char>* differs,
                              core::Crew& crew) {
-  constexpr int rounds = 5;
+  constexpr int rounds = 10;
   if (differs) {
     products.copy(matrix, *differs);
     inverse.update(matrix, *differs, crew);
@@ -58,11 +64,12 @@ bool Level::refresh_smoother(const GroupedRows<double>& matrix, const std::vecto
     products = GroupedRows<float>(matrix);
     inverse.update(matrix, std::vector<char>(start.size() - 1, 1), crew);
   }
+  stiffest.normalize();
+  stiffest += unit_noise(halo.own());  // contact that has closed may be stiffer, elsewhere
   return find_largest(rounds, crew);
 }
 
-/// By the power method from where it ended last, or from noise; a little more than it finds. False:
-/// there are no numbers.
+/// By the power method from `stiffest`; a little more than it finds. False: there are no numbers.
 bool Level::find_largest(int rounds, core::Crew& crew) {
   constexpr double more = 1.05;
   Eigen::VectorXd& v = stiffest;

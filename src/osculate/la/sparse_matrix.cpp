@@ -353,6 +353,7 @@ void append_row(const SparseMatrix& from, std::size_t row, std::span<const Index
 
 /// Unites the pattern with what waits. Neither kind is all in the pattern before, so it grows.
 void MatrixBuilder::grow() {
+  forget_values();
   const auto rows = at(matrix_.n);
   const ByRow blocks = by_row(rows, [&](const auto& take) {
     for (std::size_t b = 0; b < blocks_.size(); ++b)
@@ -392,7 +393,6 @@ void MatrixBuilder::grow() {
   blocks_.clear();
   block_unknowns_.clear();
   pending_.clear();
-  kept_ = {};
   matrix_ = std::move(grown);
   ++version_;
 }

@@ -74,7 +74,7 @@ class MatrixBuilder {
   void keep_values();
   /// Sets all values to those that were kept; false: there are none of this pattern.
   [[nodiscard]] bool restore_values();
-  void forget_values() { kept_ = {}; }
+  void forget_values() { std::vector<double>().swap(kept_); }
   /// Entries outside the pattern are kept aside until `finish`.
   void add(Index row, Index column, double value);
   /// Adds a dense block, entry by entry as `add` does, but searches hardly at all: columns that are

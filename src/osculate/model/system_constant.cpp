@@ -33,6 +33,7 @@ bool BasicSystem<Dim>::stays_linear() const {
 template <int Dim>
 void BasicSystem<Dim>::leave_out_constant(bool on) {
   impl_->bulk.which = on ? Cells::others : Cells::all;
+  if (on) impl_->builder.forget_values();
   if (on && impl_->changing.empty()) impl_->changing = changing_unknowns();
 }
 

@@ -71,7 +71,7 @@ class FormerFactors {
              const Eigen::VectorXd& residual, Eigen::VectorXd& du) {
     const std::uint64_t states = result.evaluation.counts.signature;
     const bool changed = this->changed(result), settled = states == last_;
-    moved_ = !first_ && !settled;
+    moved_ = !first_ && !earlier_ && !settled;
     last_ = states;
     constexpr double least = 1e-9;
     constexpr int tries = 2;

@@ -30,6 +30,21 @@ inline constexpr const char* space =
     "  - {name: drag, increments: 4, prescribe: [{on: b.top, ux: 0.03, uy: 0.04}]}\n"
     "output: {history: [{on: c, of: normal_force}, {on: c, of: force_x}]}\n";
 
+/// A block on another one, by multigrid; the law of the upper one is to be filled in.
+inline constexpr const char* by_multigrid =
+    "osculate: 1\n"
+    "mesh: {generate: {low: {box: {x: [0, 2], y: [0, 2], z: [0, 1], elements: [8, 8, 5]}}, up: "
+    "{box: {x: [0.3, 1.7], y: [0.3, 1.7], z: [1, 1.6], elements: [5, 5, 3]}}}}\n"
+    "materials: {m: {linear_elastic: {E: 100, nu: 0.3}}, u: {LAW: {E: 100, nu: 0.3}}}\n"
+    "sections: [{on: low, material: m, element: solid}, {on: up, material: u, element: solid}]\n"
+    "contact: [{name: c, master: low.top, slave: up.bottom, friction: {coulomb: {mu: 0.3}}}]\n"
+    "steps:\n"
+    "  - {name: press, increments: 2, prescribe: [{on: low.bottom, ux: 0, uy: 0, uz: 0}, {on: "
+    "up.top, ux: 0, uy: 0, uz: -0.02}]}\n"
+    "  - {name: drag, increments: 12, prescribe: [{on: up.top, ux: 0.1, uy: 0.05}]}\n"
+    "solver: {linear: multigrid}\n"
+    "output: {history: [{on: c, of: normal_force}, {on: c, of: force_x}]}\n";
+
 /// A disc that is thrown on a block whose base is shaken; time steps by their errors, after another
 /// step with inertia.
 inline constexpr const char* thrown =

@@ -219,6 +219,34 @@ TEST_F(Restart, OfASmallModelGoesOnAfterEachTenthIncrement) {
   EXPECT_EQ(results("pieces"), results("whole"));
 }
 
+/// The same with the coarser models of multigrid, with bodies that are linear and with one that is
+/// not.
+TEST_F(Restart, CoarserModelsPassBetweenCheckpointsAlone) {
+  for (const std::string& law : {std::string("linear_elastic"), std::string("neo_hooke")}) {
+    SCOPED_TRACE(law);
+    write(law, by_multigrid);
+    replace(law + ".yaml", "checkpoint: 1, ", "");
+    replace(law + ".yaml", "{LAW", "{" + law);
+    RunOptions o = options(law, law + "_pieces");
+    int asked = 0;
+    o.interrupted = [&] { return ++asked == 13; };
+    std::vector<std::string> restarts;
+    o.say = [&](std::string_view text) {
+      if (text.starts_with("restart after")) restarts.emplace_back(text);
+    };
+    ASSERT_EQ(run(o).status, RunStatus::stopped);
+    o.restart = true;
+    ASSERT_EQ(run(o).status, RunStatus::done);
+    ASSERT_EQ(restarts.size(), 1U);
+    EXPECT_TRUE(restarts[0].starts_with("restart after increment 8 of step 'drag'")) << restarts[0];
+    for (const int threads : {1, 2}) {
+      const std::string whole = law + "_whole" + std::to_string(threads);
+      ASSERT_EQ(run(options(law, whole, threads)).status, RunStatus::done);
+      EXPECT_EQ(results(law + "_pieces"), results(whole));
+    }
+  }
+}
+
 /// Each part of a run that is stopped again and again gets on, whether it is stopped after an
 /// increment or within one.
 TEST_F(Restart, OfASmallModelGoesOnWhereItWasStoppedBeforeTheTenthIncrement) {

@@ -79,6 +79,30 @@ INSTANTIATE_TEST_SUITE_P(
                "equal: [{on: low.left, of: ux}]\n"}),
     [](const ::testing::TestParamInfo<Blocks>& info) { return info.param.name; });
 
+// Coarser models pass from one increment to the next: what is factored is that of contact alone,
+// and not in each increment where it sticks.
+TEST(MultigridRuns, LaterIncrementsBeginWithWhatIsThere) {
+  std::string text = blocks({"Passing", "elements: [6, 6, 6]"}, "multigrid");
+  text.replace(text.find("press, increments: 1"), 20, "press, increments: 4");
+  const Description d = parse_model(text, "model.yaml");
+  Built3 built = build3(d, load_mesh(d));
+  const model::AnalysisResult3 found = model::run(built.model, built.options, {});
+  ASSERT_EQ(found.outcome, solve::Outcome::converged) << found.message;
+  EXPECT_EQ(found.linear.given_up, 0);
+  const auto& increments = found.steps[0].increments;
+  ASSERT_EQ(increments.size(), 4U);
+  EXPECT_TRUE(increments[0].iterations.front().factored);
+  EXPECT_FALSE(increments[2].iterations.front().factored);
+  EXPECT_FALSE(increments[3].iterations.front().factored);
+  const model::AnalysisResult3 direct = [&] {
+    text.replace(text.find("linear: multigrid"), 17, "linear: direct");
+    const Description by_factors = parse_model(text, "model.yaml");
+    Built3 other = build3(by_factors, load_mesh(by_factors));
+    return model::run(other.model, other.options, {});
+  }();
+  EXPECT_LT((found.state.u - direct.state.u).norm(), 1e-8 * direct.state.u.norm());
+}
+
 // Multipliers are among the unknowns that are solved for exactly.
 TEST(MultigridRuns, MultipliersAreSolvedFor) {
   const Blocks of{"Multipliers", "elements: [6, 6, 6]", "{linear_elastic: {E: 200, nu: 0.3}}",

@@ -147,14 +147,17 @@ bool BulkTerm<Dim>::add_cells(const State& committed, const State& trial, double
   };
   const Numbers cells = cells_here();
   // What most cells add to the matrix is the same each time: it is kept in sum.
-  const bool apart = to.with_tangent && which == Cells::all && !inertia &&
-                     !constant.empty() && constant.size() >= others.size();
+  const bool apart = to.with_tangent && which == Cells::all && !inertia && !constant.empty() &&
+                     constant.size() >= others.size();
   if (apart && !to.builder.restore_values()) {
+    std::vector<std::size_t> some;
+    for (std::size_t i = 0; i < cells.count; ++i)
+      if (stays[cells[i]] != 0) some.push_back(cells[i]);
     const bool added = evaluate_in_order(
-        cells, committed, trial, duration, to.into, out, failed,
-        [&](std::size_t job) { return stays[job] != 0; },
-        [&](std::size_t job, const BasicBulkBlock<Dim>& block) {
-          if (stays[job] != 0) to.assembler.add_block(dofs_of(block), block.result.tangent);
+        {&some, some.size()}, committed, trial, duration, to.into, out, failed,
+        [](std::size_t) { return true; },
+        [&](std::size_t, const BasicBulkBlock<Dim>& block) {
+          to.assembler.add_block(dofs_of(block), block.result.tangent);
         });
     if (!added) return false;
     to.builder.keep_values();
