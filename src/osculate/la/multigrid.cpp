@@ -9,6 +9,7 @@
 #include "osculate/la/by_itself.hpp"
 #include "osculate/la/grouped_rows.hpp"
 #include "osculate/la/mumps.hpp"
+#include "osculate/la/preconditioned.hpp"
 
 namespace osculate::la {
 namespace {
@@ -33,23 +34,12 @@ struct Level {
   void smooth(Eigen::VectorXd& solution, bool residual_wanted, core::Crew& crew);
 };
 
-/// Always the same numbers, of size 1 together.
-Eigen::VectorXd unit_noise(Index n) {
-  Eigen::VectorXd v(n);
-  std::uint32_t noise = 1;
-  for (double& value : v) {
-    noise = noise * 1664525U + 1013904223U;
-    value = static_cast<double>(noise >> 8U) / (1U << 24U) - 0.5;
-  }
-  return v / std::max(v.norm(), 1e-300);
-}
-
 bool Level::prepare_smoother(const CompressedRows& matrix, core::Crew& crew) {
   constexpr int rounds = 15;
   products = {};  // gives its memory back before
   products = GroupedRows<float>(matrix, start, crew);
   inverse = BlockDiagonal(matrix, start, crew);
-  stiffest = unit_noise(halo.own());
+  stiffest = noise(halo.own()).normalized();
   return find_largest(rounds, crew);
 }
 
@@ -65,7 +55,7 @@ bool Level::refresh_smoother(const GroupedRows<double>& matrix, const std::vecto
     inverse.update(matrix, std::vector<char>(start.size() - 1, 1), crew);
   }
   stiffest.normalize();
-  stiffest += unit_noise(halo.own());  // contact that has closed may be stiffer, elsewhere
+  stiffest += noise(halo.own()).normalized();  // contact that has closed may be stiffer, elsewhere
   return find_largest(rounds, crew);
 }
 

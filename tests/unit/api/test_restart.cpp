@@ -62,6 +62,20 @@ class Restart : public ::testing::Test {
     changed.replace(changed.find(old), old.size(), text);
     std::ofstream(folder_ / name) << changed;
   }
+  /// A run that is stopped after so many increments, and goes on to its end from where it says.
+  static void expect_to_go_on(RunOptions o, int increments, const std::string& from) {
+    int asked = 0;
+    o.interrupted = [&] { return ++asked == increments; };
+    std::vector<std::string> restarts;
+    o.say = [&](std::string_view text) {
+      if (text.starts_with("restart after")) restarts.emplace_back(text);
+    };
+    ASSERT_EQ(run(o).status, RunStatus::stopped);
+    o.restart = true;
+    ASSERT_EQ(run(o).status, RunStatus::done);
+    ASSERT_EQ(restarts.size(), 1U);
+    EXPECT_TRUE(restarts[0].starts_with(from)) << restarts[0];
+  }
   /// Histories and fields, byte by byte, and the steps of the summary.
   [[nodiscard]] std::map<std::string, std::string> results(const std::string& out) const {
     std::map<std::string, std::string> found;
@@ -203,18 +217,7 @@ TEST_F(Restart, OnAPathThatTurnsBack) {
 TEST_F(Restart, OfASmallModelGoesOnAfterEachTenthIncrement) {
   replace("plane.yaml", "checkpoint: 1, ", "");
   replace("plane.yaml", "increments: 8", "increments: 24");
-  RunOptions o = options("plane", "pieces");
-  int asked = 0;
-  o.interrupted = [&] { return ++asked == 16; };
-  std::vector<std::string> restarts;
-  o.say = [&](std::string_view text) {
-    if (text.starts_with("restart after")) restarts.emplace_back(text);
-  };
-  EXPECT_EQ(run(o).status, RunStatus::stopped);
-  o.restart = true;
-  EXPECT_EQ(run(o).status, RunStatus::done);
-  ASSERT_EQ(restarts.size(), 1U);
-  EXPECT_TRUE(restarts[0].starts_with("restart after increment 8 of step 'drag'")) << restarts[0];
+  expect_to_go_on(options("plane", "pieces"), 16, "restart after increment 8 of step 'drag'");
   ASSERT_EQ(run(options("plane", "whole")).status, RunStatus::done);
   EXPECT_EQ(results("pieces"), results("whole"));
 }
@@ -227,18 +230,7 @@ TEST_F(Restart, CoarserModelsPassBetweenCheckpointsAlone) {
     write(law, by_multigrid);
     replace(law + ".yaml", "checkpoint: 1, ", "");
     replace(law + ".yaml", "{LAW", "{" + law);
-    RunOptions o = options(law, law + "_pieces");
-    int asked = 0;
-    o.interrupted = [&] { return ++asked == 13; };
-    std::vector<std::string> restarts;
-    o.say = [&](std::string_view text) {
-      if (text.starts_with("restart after")) restarts.emplace_back(text);
-    };
-    ASSERT_EQ(run(o).status, RunStatus::stopped);
-    o.restart = true;
-    ASSERT_EQ(run(o).status, RunStatus::done);
-    ASSERT_EQ(restarts.size(), 1U);
-    EXPECT_TRUE(restarts[0].starts_with("restart after increment 8 of step 'drag'")) << restarts[0];
+    expect_to_go_on(options(law, law + "_pieces"), 13, "restart after increment 8 of step 'drag'");
     for (const int threads : {1, 2}) {
       const std::string whole = law + "_whole" + std::to_string(threads);
       ASSERT_EQ(run(options(law, whole, threads)).status, RunStatus::done);
