@@ -5,11 +5,12 @@ find_package(yaml-cpp 0.7 REQUIRED)
 find_package(nlohmann_json 3.11 REQUIRED)
 find_package(CLI11 2.1 REQUIRED)
 find_package(OpenMP REQUIRED COMPONENTS CXX)
-find_package(ZLIB REQUIRED)
+find_package(LibDeflate REQUIRED)
 find_package(MumpsSeq REQUIRED)
 find_package(Spectra 1.0 CONFIG REQUIRED HINTS /usr/share/spectra/cmake)
 if(OSCULATE_TESTS)
   find_package(GTest 1.12 REQUIRED)
+  find_package(ZLIB REQUIRED)
 endif()
 # Eigen as all use it. The library is built with AVX unless OSCULATE_BASELINE is set, a host code
 # perhaps without: both must align small matrices alike, or values change their layout on the way.

@@ -1,7 +1,7 @@
 #include "osculate/io/chunk_file.hpp"
 
 #include <fmt/format.h>
-#include <zlib.h>
+#include <libdeflate.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -67,8 +67,7 @@ void require_head(const std::string& path, std::string_view text, std::string_vi
 }  // namespace
 
 std::uint32_t checksum(std::string_view bytes, std::uint32_t before) {
-  return static_cast<std::uint32_t>(
-      crc32_z(before, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+  return bytes.empty() ? before : libdeflate_crc32(before, bytes.data(), bytes.size());
 }
 
 std::string chunk_file_head(std::string_view kind, int version) {

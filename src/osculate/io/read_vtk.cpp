@@ -1,10 +1,12 @@
 #include "osculate/io/read_vtk.hpp"
 
 #include <fmt/format.h>
-#include <zlib.h>
+#include <libdeflate.h>
 
 #include <cstdlib>
 #include <cstring>
+#include <memory>
+#include <new>
 #include <string_view>
 
 #include "osculate/core/error.hpp"
@@ -65,11 +67,14 @@ class Appended {
     (void)part(offset, 24 + 8 * std::min<std::uint64_t>(packets, bytes_.size()));
     std::uint64_t at = offset + 24 + 8 * packets;
     std::string out, buffer(std::min<std::uint64_t>(most, std::uint64_t{1} << 24U), '\0');
+    const std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)> opener(
+        libdeflate_alloc_decompressor(), &libdeflate_free_decompressor);
+    if (!opener) throw std::bad_alloc();
     for (std::uint64_t i = 0; i < packets; ++i) {
       const std::string_view packet = part(at, word(offset + 24 + 8 * i));
-      uLongf size = buffer.size();
-      if (uncompress(reinterpret_cast<Bytef*>(buffer.data()), &size,
-                     reinterpret_cast<const Bytef*>(packet.data()), packet.size()) != Z_OK)
+      std::size_t size = 0;
+      if (libdeflate_zlib_decompress(opener.get(), packet.data(), packet.size(), buffer.data(),
+                                     buffer.size(), &size) != LIBDEFLATE_SUCCESS)
         throw core::InputError({path_, 0, ""}, "its packed data are damaged");
       out.append(buffer, 0, size);
       at += packet.size();

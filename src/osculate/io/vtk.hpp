@@ -48,7 +48,8 @@ struct VtuData {
 ///            std::invalid_argument if a field does not fit the points or cells (a defect of the
 ///            caller)
 /// Tested by  tests/unit/io/test_vtk.cpp (read back by a parser of its own)
-void write_vtu(const std::string& path, const VtuData& data, bool compress = false);
+void write_vtu(const std::string& path, const VtuData& data, bool compress = false,
+               int threads = 1);
 
 /// A surface as a data set of its own: the facets on their own nodes only.
 struct SurfacePart {
