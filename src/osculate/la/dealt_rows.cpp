@@ -88,28 +88,27 @@ CompressedRows own_rows(const SparseMatrix& k, Symmetry symmetry, const Dealt& d
   return a;
 }
 
-/// Columns that are unknowns become those here, own ones first.
-CompressedRows translated(const CompressedRows& rows, const std::vector<Index>& here,
-                          const Halo& halo) {
-  CompressedRows out(rows.rows(), halo.here());
-  out.resizeNonZeros(rows.nonZeros());
-  std::copy_n(rows.outerIndexPtr(), rows.rows() + 1, out.outerIndexPtr());
+/// Columns that are unknowns become those here, own ones first. Uses up the rows.
+CompressedRows translated(CompressedRows& rows, const std::vector<Index>& here, const Halo& halo) {
   std::vector<Entry> others;
   for (Index i = 0; i < rows.rows(); ++i) {
     Index next = rows.outerIndexPtr()[i];
     others.clear();
     const auto put = [&](Index column, double value) {
-      out.innerIndexPtr()[next] = column;
-      out.valuePtr()[next++] = value;
+      rows.innerIndexPtr()[next] = column;
+      rows.valuePtr()[next++] = value;
     };
-    for (CompressedRows::InnerIterator entry(rows, i); entry; ++entry)
-      if (const Index j = here[as_size(static_cast<Index>(entry.col()))]; j < halo.own())
-        put(j, entry.value());
+    for (Index e = next; e < rows.outerIndexPtr()[i + 1]; ++e)
+      if (const Index j = here[as_size(rows.innerIndexPtr()[e])]; j < halo.own())
+        put(j, rows.valuePtr()[e]);
       else
-        others.push_back({j, entry.value()});
+        others.push_back({j, rows.valuePtr()[e]});
     std::ranges::sort(others, {}, &Entry::column);
     for (const Entry& other : others) put(other.column, other.value);
   }
+  CompressedRows out(rows.rows(), halo.here());
+  std::copy_n(rows.outerIndexPtr(), rows.rows() + 1, out.outerIndexPtr());
+  out.data().swap(rows.data());
   return out;
 }
 
@@ -119,7 +118,7 @@ RowsHere rows_here(const SparseMatrix& k, Symmetry symmetry, const Dealt& dealt)
   if (!dealt.ranks) return {compressed(k, symmetry), Halo(k.n)};
   const auto me = static_cast<std::size_t>(dealt.ranks->rank());
   const Index begin = dealt.first[me], own = dealt.first[me + 1] - begin;
-  const CompressedRows rows = own_rows(k, symmetry, dealt, begin, own);
+  CompressedRows rows = own_rows(k, symmetry, dealt, begin, own);
   constexpr Index unseen = -1, seen = -2;
   std::vector<Index> here(as_size(k.n), unseen), others;
   for (Index i = 0; i < own; ++i) here[as_size(dealt.unknown[as_size(begin + i)])] = i;

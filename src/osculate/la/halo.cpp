@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace osculate::la {
 namespace {
@@ -171,14 +172,34 @@ CompressedRows summed_up(CompressedRows& rows, const core::Ranks* ranks,
 
 CompressedRows gathered(const CompressedRows& own, const Halo& halo) {
   if (!halo.ranks()) return own;
-  std::vector<double> mine;
+  Eigen::VectorXd lengths(own.rows());
   for (Index i = 0; i < own.rows(); ++i)
+    lengths[i] = own.outerIndexPtr()[i + 1] - own.outerIndexPtr()[i];
+  lengths = halo.gathered(lengths);
+  CompressedRows all(halo.everywhere(), halo.everywhere());
+  Index* const start = all.outerIndexPtr();
+  for (Index i = 0; i < halo.everywhere(); ++i)
+    start[i + 1] = start[i] + static_cast<Index>(lengths[i]);
+  all.resizeNonZeros(start[halo.everywhere()]);
+  std::vector<std::pair<Index, double>> row;
+  for (Index i = 0; i < own.rows(); ++i) {
+    row.clear();
     for (CompressedRows::InnerIterator entry(own, i); entry; ++entry)
-      add_entry(halo.begin() + i, halo.number_everywhere(static_cast<Index>(entry.col())),
-                entry.value(), mine);
-  const auto processes = static_cast<std::size_t>(halo.ranks()->count());
-  return from_entries(exchanged(*halo.ranks(), std::vector(processes, mine)), halo.everywhere(),
-                      halo.everywhere());
+      row.emplace_back(halo.number_everywhere(static_cast<Index>(entry.col())), entry.value());
+    std::ranges::sort(row, {}, &std::pair<Index, double>::first);
+    Index next = start[halo.begin() + i];
+    for (const auto& [column, value] : row) {
+      all.innerIndexPtr()[next] = column;
+      all.valuePtr()[next++] = value;
+    }
+  }
+  for (int p = 0; p < halo.ranks()->count(); ++p) {
+    const Index begin = start[halo.begin_of(p)], end = start[halo.begin_of(p + 1)];
+    const auto count = as_size(end - begin);
+    halo.ranks()->spread({all.innerIndexPtr() + begin, count}, p);
+    halo.ranks()->spread({all.valuePtr() + begin, count}, p);
+  }
+  return all;
 }
 
 GroupStarts with_others(GroupStarts own, const Halo& halo) {

@@ -33,6 +33,10 @@ class Halo {
   [[nodiscard]] Index everywhere() const { return first_.back(); }
   [[nodiscard]] Index begin() const { return first_[me()]; }  ///< of the own ones, everywhere
   [[nodiscard]] Index end() const { return first_[me() + 1]; }
+  /// Of those of a process; behind the last one: how many there are.
+  [[nodiscard]] Index begin_of(int process) const {
+    return first_[static_cast<std::size_t>(process)];
+  }
   [[nodiscard]] const std::vector<Index>& others() const { return others_; }
   [[nodiscard]] Index number_everywhere(Index here) const {
     return here < own() ? begin() + here : others_[as_size(here - own())];

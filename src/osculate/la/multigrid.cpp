@@ -265,9 +265,10 @@ bool Multigrid::build(CompressedRows&& a, Halo halo, GroupStarts groups,
   if (last.ranks() && last.everywhere() > too_many) return false;  // all would be on each process
   s.coarsest = std::make_unique<Mumps>();
   const SparseMatrix whole = stored(gathered(s.levels.back()->a, last));
+  release(s.levels.back()->a);
   const FactorReport report =
       by_itself(last.ranks(), [&] { return s.coarsest->factor(whole, 0, Symmetry::unsymmetric); });
-  release(s.levels.back()->a);
+  s.coarsest->keep_factors_alone();
   return last.all(report.status == SolveStatus::ok);
 }
 

@@ -44,6 +44,7 @@ struct Mumps::Impl {
   DMUMPS_STRUC_C id{};
   MumpsOptions options;
   bool open = false, analysed = false, factored = false;
+  bool alone = false;  ///< the factors, without the matrix
   Symmetry symmetry = Symmetry::unsymmetric;
   std::uint64_t version = 0;
   Index n = -1;
@@ -101,6 +102,7 @@ struct Mumps::Impl {
   SolveStatus solve(Eigen::VectorXd& rhs);
   FactorReport factor(const SparseMatrix& k, std::uint64_t wanted_version, Symmetry wanted);
   void refine(const Eigen::VectorXd& rhs, Eigen::VectorXd& x);
+  void forget_matrix();
 };
 
 namespace {
@@ -394,7 +396,7 @@ Mumps::~Mumps() = default;
 FactorReport Mumps::Impl::factor(const SparseMatrix& k, std::uint64_t wanted_version,
                                  Symmetry wanted) {
   const LibraryCall guard(options.blas_threads);
-  factored = false;
+  factored = alone = false;
   if (k.n == 0) {
     close();
     n = 0;
@@ -423,14 +425,26 @@ FactorReport Mumps::factor(const SparseMatrix& k, std::uint64_t pattern_version,
   return impl_->factor(k, pattern_version, symmetry);
 }
 
+void Mumps::Impl::forget_matrix() {
+  for (std::vector<int>* const of : {&rows, &columns, &order}) *of = std::vector<int>();
+  values = std::vector<double>();  // braces would keep the room
+  id.irn = id.jcn = id.irn_loc = id.jcn_loc = id.perm_in = nullptr;
+  id.a = id.a_loc = nullptr;
+}
+
 void Mumps::forget() {
   Impl& s = *impl_;
   if (!s.open) return;
   const LibraryCall guard(s.options.blas_threads);
   s.close();
-  s.rows = {};
-  s.columns = {};
-  s.values = {};
+  s.forget_matrix();
+}
+
+void Mumps::keep_factors_alone() {
+  Impl& s = *impl_;
+  s.forget_matrix();
+  s.analysed = false;
+  s.alone = true;
 }
 
 double Mumps::seconds() const { return impl_->seconds; }
@@ -448,7 +462,7 @@ SolveStatus Mumps::Impl::solve(Eigen::VectorXd& rhs) {
 
 SolveStatus Mumps::solve(Eigen::VectorXd& rhs) {
   Impl& s = *impl_;
-  if (!s.factored || rhs.size() != s.n || !rhs.allFinite()) return SolveStatus::failed;
+  if (!s.factored || s.alone || rhs.size() != s.n || !rhs.allFinite()) return SolveStatus::failed;
   const Timed timed(s.seconds);
   return s.solve(rhs);
 }
@@ -465,7 +479,7 @@ SolveStatus Mumps::solve_once(Eigen::VectorXd& rhs) {
 
 SolveStatus Mumps::solve(Eigen::MatrixXd& rhs) {
   Impl& s = *impl_;
-  if (!s.factored || rhs.rows() != s.n || !rhs.allFinite()) return SolveStatus::failed;
+  if (!s.factored || s.alone || rhs.rows() != s.n || !rhs.allFinite()) return SolveStatus::failed;
   if (rhs.size() == 0) return SolveStatus::ok;
   const Timed timed(s.seconds);
   const LibraryCall guard(s.options.blas_threads);

@@ -42,6 +42,9 @@ class Mumps final : public LinearSolver {
   SolveStatus solve(Eigen::MatrixXd& rhs_in_solution_out) override;
   /// Gives the memory back; `factor` is to follow.
   void forget();
+  /// Gives back what is not factors: `solve_once` goes on, `solve` does not, and the next matrix is
+  /// analysed again.
+  void keep_factors_alone();
   [[nodiscard]] double seconds() const override;
 
  private:

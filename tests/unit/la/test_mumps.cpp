@@ -314,6 +314,25 @@ TEST(Mumps, outlives_its_matrix) {
   EXPECT_EQ(y, x);
 }
 
+TEST(Mumps, factors_alone_solve_once) {
+  MatrixBuilder m = test::grid(25, 25, true);
+  const SparseMatrix& k = m.finish();
+  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(k.n, -1, 2);
+  Mumps solver;
+  ASSERT_EQ(solver.factor(k, 0, Symmetry::unsymmetric).status, SolveStatus::ok);
+  Eigen::VectorXd before = b, after = b, refined = b;
+  ASSERT_EQ(solver.solve_once(before), SolveStatus::ok);
+  solver.keep_factors_alone();
+  ASSERT_EQ(solver.solve_once(after), SolveStatus::ok);
+  EXPECT_EQ(after, before);
+  EXPECT_EQ(solver.solve(refined), SolveStatus::failed);  // there is no matrix for its residual
+  Eigen::MatrixXd several = b;
+  EXPECT_EQ(solver.solve(several), SolveStatus::failed);
+  ASSERT_EQ(solver.factor(k, 0, Symmetry::unsymmetric).status, SolveStatus::ok);
+  ASSERT_EQ(solver.solve(refined), SolveStatus::ok);
+  EXPECT_LT((refined - before).norm(), 1e-9 * before.norm());
+}
+
 TEST(Mumps, several_live_at_once_on_several_threads) {
   MatrixBuilder m = test::grid(20, 20, true);
   const SparseMatrix& k = m.finish();
