@@ -7,9 +7,7 @@
 # variable another may call a constant, and a source is an included file.
 option(OSCULATE_PRECOMPILE "Precompile the headers that most sources need" ON)
 add_library(osculate_flags INTERFACE)
-# OpenMP everywhere, so that one precompiled header serves all; Eigen's products are not parallel.
-target_compile_definitions(osculate_flags INTERFACE EIGEN_DONT_PARALLELIZE)
-target_compile_options(osculate_flags INTERFACE -fPIC ${OpenMP_CXX_FLAGS}
+target_compile_options(osculate_flags INTERFACE -fPIC
   -Wall -Wextra -Wpedantic -Wnon-virtual-dtor
   $<IF:$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>,$<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>,-Wshadow>
   # The compiler collects garbage only from 1 GB on: a tenth of its time.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 
+#include "osculate/core/pieces.hpp"
+
 namespace osculate::model {
 namespace {
 
@@ -95,18 +97,17 @@ void ForceBatches<Dim>::take(const BulkTerm<Dim>& bulk, std::size_t kind,
     return cell_nodes(bulk.model.mesh, bulk.jobs[j].cell).nodes;
   };
   std::vector<char> fits(jobs.size(), 0);
-  const auto fours = static_cast<std::ptrdiff_t>(most);
   // Each four by one thread: lanes are parts of the same numbers.
-#pragma omp parallel for num_threads(bulk.threads) schedule(static)
-  for (std::ptrdiff_t f = 0; f < fours; ++f)
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-      const std::size_t at = static_cast<std::size_t>(f) * lanes + lane;
+  constexpr std::size_t piece = 256;
+  core::for_pieces(most, piece, bulk.threads, [&](std::size_t from, std::size_t to) {
+    for (std::size_t at = from * lanes; at < to * lanes; ++at) {
       const std::size_t job = std::min(at, jobs.size() - 1);
-      const bool good = solid::keep_in<Dim>(
-          batch, reference_of(bulk.model, cell_of(jobs[job])), static_cast<int>(lane),
-          &numbers_[begin + static_cast<std::size_t>(f) * batch.kept]);
+      const bool good = solid::keep_in<Dim>(batch, reference_of(bulk.model, cell_of(jobs[job])),
+                                            static_cast<int>(at % lanes),
+                                            &numbers_[begin + at / lanes * batch.kept]);
       if (at < jobs.size()) fits[at] = good ? 1 : 0;
     }
+  });
   for (std::size_t f = 0; f < most; ++f) {
     Four four;
     four.kind = kind;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "osculate/core/dense.hpp"
+#include "osculate/core/pieces.hpp"
 #include "osculate/model/temperatures.hpp"
 
 namespace osculate::model {
@@ -55,18 +56,15 @@ struct RestingCells {
   template <class LimitOf>
   [[nodiscard]] std::vector<double> above(const LimitOf& limit_of, int threads) const {
     std::vector<double> out(cells.size(), 0.0);
-    const auto count = static_cast<std::ptrdiff_t>(cells.size());
-#pragma omp parallel num_threads(threads)
-    {
+    constexpr std::size_t piece = 256;
+    core::for_pieces(cells.size(), piece, threads, [&](std::size_t begin, std::size_t end) {
       BasicBulkBlock<Dim> block;
-#pragma omp for schedule(dynamic, 256)
-      for (std::ptrdiff_t c = 0; c < count; ++c) {
-        const auto cell = static_cast<std::size_t>(c);
+      for (std::size_t cell = begin; cell < end; ++cell) {
         const Eigen::MatrixXd scaled = scaled_stiffness(cell, block);
         if (scaled.size() == 0 || core::eigenvalues_below(scaled, limit_of(cell))) continue;
         out[cell] = std::max(0.0, core::eigenvalues(scaled).maxCoeff());
       }
-    }
+    });
     return out;
   }
 };

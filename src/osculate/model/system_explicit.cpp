@@ -1,8 +1,6 @@
 // Explicit time integration: the forces and accelerations of one time step.
 #include "osculate/model/system_explicit.hpp"
 
-#include <omp.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -110,12 +108,11 @@ bool BasicSystem<Dim>::Impl::Explicit::add_cell(std::size_t cell, const Vector& 
 }
 
 template <int Dim>
-std::ptrdiff_t BasicSystem<Dim>::Impl::Explicit::add_part(std::size_t part, const Vector& u,
-                                                          double h) {
-  Work& with = work[static_cast<std::size_t>(omp_get_thread_num())];
-  auto failed = static_cast<std::ptrdiff_t>(system.bulk.jobs.size());
+std::size_t BasicSystem<Dim>::Impl::Explicit::add_part(std::size_t part, const Vector& u, double h,
+                                                       Work& with) {
+  std::size_t failed = system.bulk.jobs.size();
   const auto alone = [&](std::size_t cell) {
-    if (!add_cell(cell, u, h, with)) failed = std::min(failed, static_cast<std::ptrdiff_t>(cell));
+    if (!add_cell(cell, u, h, with)) failed = std::min(failed, cell);
   };
   batches.gather(part, u, with.along);
   with.force.assign(with.along.size(), core::Pack::Zero());
@@ -256,8 +253,7 @@ bool BasicSystem<Dim>::Impl::Explicit::set_accelerations(double h, solve::Explic
   const Eigen::Index dofs = inverse.size(), turn_count = (dofs + dofs_a_turn - 1) / dofs_a_turn;
   const double half = 0.5 * h;
   of_turns.assign(static_cast<std::size_t>(turn_count), {});
-#pragma omp parallel for num_threads(system.bulk.threads) schedule(static) if (turn_count > 1)
-  for (Eigen::Index turn = 0; turn < turn_count; ++turn) {
+  const auto take = [&](Eigen::Index turn) {
     const Eigen::Index begin = turn * dofs_a_turn, n = std::min(dofs_a_turn, dofs - begin);
     const auto here = [&](const Vector& v) { return v.segment(begin, n); };
     const auto work_of = [&](const Vector& past, const Vector& force) {
@@ -276,7 +272,11 @@ bool BasicSystem<Dim>::Impl::Explicit::set_accelerations(double h, solve::Explic
     }
     w.square = sum.squaredNorm();
     m.acceleration.segment(begin, n) = -sum.cwiseProduct(here(inverse));
-  }
+  };
+  constexpr std::size_t worth_it = 4;
+  system.bulk.crew.share_runs(of_turns.size(), worth_it, [&](std::size_t from, std::size_t to) {
+    for (std::size_t turn = from; turn < to; ++turn) take(static_cast<Eigen::Index>(turn));
+  });
   for (const Dof d : gathered) m.acceleration[d] = -total[d] * inverse[d];
   works.square = 0;
   for (const Works& w : of_turns) {

@@ -1,6 +1,7 @@
 #pragma once
 // Inside of BasicSystem: explicit time integration; included by its sources only.
 #include <algorithm>
+#include <atomic>
 #include <string>
 #include <vector>
 
@@ -85,7 +86,7 @@ struct BasicSystem<Dim>::Impl::Explicit {
   ForceBatches<Dim> batches;
   std::vector<bool> touching;  ///< cells with nodes in contact pairs
   Parts parts;
-  std::vector<Work> work;     ///< per thread
+  std::vector<Work> work;     ///< for each thread one
   std::vector<Dof> gathered;  ///< dofs whose forces or whose part in the motion others have
   std::vector<pairing::ActiveSet<Dim>> active_set;
   std::vector<pairing::FarPoints<Dim>> far;  ///< likewise per pair
@@ -140,7 +141,15 @@ struct BasicSystem<Dim>::Impl::Explicit {
     return place < dofs ? internal.data() + place : parts.slots.data() + (place - dofs);
   }
   /// The cells of a part; the first that has no answer, or their number.
-  [[nodiscard]] std::ptrdiff_t add_part(std::size_t part, const Vector& u, double h);
+  [[nodiscard]] std::size_t add_part(std::size_t part, const Vector& u, double h, Work& with);
+  /// Calls of(part, work) for the parts here, by all threads.
+  template <class Of>
+  void for_parts(const Of& of) {
+    std::atomic<std::size_t> next = parts.from;
+    system.bulk.crew.share(work.size(), [&](std::size_t thread) {
+      for (std::size_t part; (part = next++) < parts.to;) of(part, work[thread]);
+    });
+  }
   /// `all`: places of points far from contact are asked for, too.
   void add_contact(double h, double fraction, bool all);
   void commit_contact();
@@ -176,7 +185,7 @@ struct BasicSystem<Dim>::Impl::Explicit {
   void sum_slots(std::size_t begin, std::size_t end);
   void exchange_forces();
   /// The first cell of all processes that has no answer; false, and `trouble` says why.
-  [[nodiscard]] bool all_have_answers(std::ptrdiff_t failed, const Vector& u, double h);
+  [[nodiscard]] bool all_have_answers(std::size_t failed, const Vector& u, double h);
   /// What the materials of other processes' parts remember.
   void exchange_memory(std::vector<double>& memory) const;
   template <class Visit>

@@ -1,6 +1,7 @@
 // Explicit time integration: which process evaluates which cells, and how their forces come
 // together.
 #include <algorithm>
+#include <atomic>
 
 #include "osculate/model/system_explicit.hpp"
 
@@ -67,15 +68,15 @@ void BasicSystem<Dim>::Impl::Explicit::number_slots() {
 template <int Dim>
 void BasicSystem<Dim>::Impl::Explicit::sum_slots(std::size_t begin, std::size_t end) {
   Vector& internal = system.last.forces.internal;
-  const auto last = static_cast<std::ptrdiff_t>(end);
-#pragma omp parallel for num_threads(system.bulk.threads) schedule(static)
-  for (auto s = static_cast<std::ptrdiff_t>(begin); s < last; ++s) {
-    const auto at = static_cast<std::size_t>(s);
-    Vec<Dim> sum = Vec<Dim>::Zero();
-    for (std::size_t e = parts.begin[at]; e < parts.begin[at + 1]; ++e)
-      sum += Eigen::Map<const Vec<Dim>>(&parts.slots[Dim * e]);
-    internal.template segment<Dim>(Dim * parts.shared[at]) = sum;
-  }
+  constexpr std::size_t worth_it = 500;
+  system.bulk.crew.share_runs(end - begin, worth_it, [&](std::size_t from, std::size_t to) {
+    for (std::size_t at = begin + from; at < begin + to; ++at) {
+      Vec<Dim> sum = Vec<Dim>::Zero();
+      for (std::size_t e = parts.begin[at]; e < parts.begin[at + 1]; ++e)
+        sum += Eigen::Map<const Vec<Dim>>(&parts.slots[Dim * e]);
+      internal.template segment<Dim>(Dim * parts.shared[at]) = sum;
+    }
+  });
 }
 
 /// What stands in places of others is theirs.
@@ -95,12 +96,12 @@ void BasicSystem<Dim>::Impl::Explicit::exchange_forces() {
 template <int Dim>
 bool BasicSystem<Dim>::Impl::Explicit::add_cells(const Vector& u, double h) {
   const Stopwatch watch;
-  const auto from = static_cast<std::ptrdiff_t>(parts.from);
-  const auto to = static_cast<std::ptrdiff_t>(parts.to);
-  auto failed = static_cast<std::ptrdiff_t>(system.bulk.jobs.size());
-#pragma omp parallel for num_threads(system.bulk.threads) schedule(static) reduction(min : failed)
-  for (std::ptrdiff_t p = from; p < to; ++p)
-    failed = std::min(failed, add_part(static_cast<std::size_t>(p), u, h));
+  std::atomic<std::size_t> failed = system.bulk.jobs.size();
+  for_parts([&](std::size_t part, Work& with) {
+    const std::size_t here = add_part(part, u, h, with);
+    for (std::size_t first = failed; here < first;)
+      if (failed.compare_exchange_weak(first, here)) break;
+  });
   sum_slots(parts.across, parts.shared.size());
   exchange_forces();
   sum_slots(0, parts.across);
@@ -109,7 +110,7 @@ bool BasicSystem<Dim>::Impl::Explicit::add_cells(const Vector& u, double h) {
 }
 
 template <int Dim>
-bool BasicSystem<Dim>::Impl::Explicit::all_have_answers(std::ptrdiff_t failed, const Vector& u,
+bool BasicSystem<Dim>::Impl::Explicit::all_have_answers(std::size_t failed, const Vector& u,
                                                         double h) {
   const core::Ranks* const ranks = system.ranks;
   const auto none = static_cast<double>(system.bulk.jobs.size());
@@ -117,8 +118,7 @@ bool BasicSystem<Dim>::Impl::Explicit::all_have_answers(std::ptrdiff_t failed, c
   const double first = ranks ? -ranks->largest(-own) : own;
   if (first == none) return true;
   if (own == first) {
-    system.bulk.evaluate(static_cast<std::size_t>(failed), u, now.memory, {}, h, false,
-                         work.front().block);
+    system.bulk.evaluate(failed, u, now.memory, {}, h, false, work.front().block);
     trouble = work.front().block.message;
   }
   if (ranks)

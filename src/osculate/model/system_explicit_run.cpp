@@ -195,13 +195,10 @@ Rates BasicSystem<Dim>::Impl::Explicit::begin(const State& committed, Rates rate
 template <int Dim>
 solid::CellEnergy BasicSystem<Dim>::Impl::Explicit::cells_energy(
     const Eigen::VectorXd& u, const std::vector<double>& memory) const {
-  const auto from = static_cast<std::ptrdiff_t>(parts.from);
-  const auto to = static_cast<std::ptrdiff_t>(parts.to);
   constexpr double nothing = core::Ranks::nothing;
   std::vector<std::array<double, 2>> of_part(batches.parts(), {nothing, nothing});
-#pragma omp parallel for num_threads(system.bulk.threads) schedule(static)
-  for (std::ptrdiff_t p = from; p < to; ++p) {
-    const auto part = static_cast<std::size_t>(p);
+  system.bulk.crew.share(parts.to - parts.from, [&](std::size_t number) {
+    const std::size_t part = parts.from + number;
     solid::CellEnergy sum;
     const auto alone = [&](std::size_t cell) {
       const typename BulkTerm<Dim>::Job& job = system.bulk.jobs[cell];
@@ -223,7 +220,7 @@ solid::CellEnergy BasicSystem<Dim>::Impl::Explicit::cells_energy(
     }
     for (std::size_t i = others.begin; i < others.end; ++i) alone(batches.others()[i]);
     of_part[part] = {sum.stored, sum.dissipated};
-  }
+  });
   if (system.ranks && !of_part.empty())
     system.ranks->sum({of_part.front().data(), 2 * of_part.size()});
   solid::CellEnergy sum;

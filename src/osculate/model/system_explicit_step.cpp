@@ -1,7 +1,5 @@
 // Explicit time integration: the longest stable time step.
 #include <fmt/format.h>
-#include <omp.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -101,15 +99,10 @@ void BasicSystem<Dim>::Impl::Explicit::measure_stable_step() {
   // threads.
   const Fastest before = fastest_before();
   std::vector<Fastest> of_part(batches.parts(), before);
-  const auto from = static_cast<std::ptrdiff_t>(parts.from);
-  const auto to = static_cast<std::ptrdiff_t>(parts.to);
-#pragma omp parallel for num_threads(system.bulk.threads) schedule(dynamic)
-  for (std::ptrdiff_t p = from; p < to; ++p) {
-    const auto number = static_cast<std::size_t>(p);
-    BulkBlock& block = work[static_cast<std::size_t>(omp_get_thread_num())].block;
+  for_parts([&](std::size_t part, Work& with) {
     typename ForceBatches<Dim>::Stiffness last;
-    for_each_job(number, [&](std::size_t cell) { look_at(cell, block, last, of_part[number]); });
-  }
+    for_each_job(part, [&](std::size_t cell) { look_at(cell, with.block, last, of_part[part]); });
+  });
   Fastest all = before;
   for (const Fastest& f : of_part) {
     if (f.value > all.value) {
