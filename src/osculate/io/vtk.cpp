@@ -43,8 +43,8 @@ struct Document {
 template <class T>
 void add_array(Document& doc, const char* type, const std::string& attributes,
                std::span<const T> values) {
-  doc.header +=
-      fmt::format("        <DataArray type=\"{}\" {} format=\"appended\" offset=\"", type, attributes);
+  doc.header += fmt::format("        <DataArray type=\"{}\" {} format=\"appended\" offset=\"", type,
+                            attributes);
   doc.arrays.push_back(
       {reinterpret_cast<const char*>(values.data()), values.size_bytes(), doc.header.size()});
   doc.header += "\"/>\n";
@@ -70,8 +70,8 @@ void pack(std::span<const std::string_view> parts, std::span<std::string> out) {
   std::string room;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     room.resize(libdeflate_zlib_compress_bound(compressor.get(), parts[i].size()));
-    const std::size_t size = libdeflate_zlib_compress(
-        compressor.get(), parts[i].data(), parts[i].size(), room.data(), room.size());
+    const std::size_t size = libdeflate_zlib_compress(compressor.get(), parts[i].data(),
+                                                      parts[i].size(), room.data(), room.size());
     out[i].assign(room, 0, size);
   }
 }

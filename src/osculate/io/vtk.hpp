@@ -42,7 +42,8 @@ struct VtuData {
 };
 
 /// Writes an unstructured grid: XML with raw appended data, 64-bit sizes, native byte order,
-/// optionally packed by zlib. NaN values are written as they are.
+/// optionally packed by zlib, with the same bytes for any number of threads. NaN values are written
+/// as they are.
 ///
 /// Errors     WriteError if the file cannot be written (a file of that name is then untouched);
 ///            std::invalid_argument if a field does not fit the points or cells (a defect of the

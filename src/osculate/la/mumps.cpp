@@ -428,6 +428,7 @@ FactorReport Mumps::factor(const SparseMatrix& k, std::uint64_t pattern_version,
 void Mumps::Impl::forget_matrix() {
   for (std::vector<int>* const of : {&rows, &columns, &order}) *of = std::vector<int>();
   values = std::vector<double>();  // braces would keep the room
+  // Solutions look at none of these without error analysis and refinement (ICNTL(10), (11) are 0).
   id.irn = id.jcn = id.irn_loc = id.jcn_loc = id.perm_in = nullptr;
   id.a = id.a_loc = nullptr;
 }

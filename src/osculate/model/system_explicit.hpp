@@ -146,7 +146,7 @@ struct BasicSystem<Dim>::Impl::Explicit {
   template <class Of>
   void for_parts(const Of& of) {
     std::atomic<std::size_t> next = parts.from;
-    system.bulk.crew.share(work.size(), [&](std::size_t thread) {
+    system.bulk.crew.share(std::min(work.size(), parts.to - parts.from), [&](std::size_t thread) {
       for (std::size_t part; (part = next++) < parts.to;) of(part, work[thread]);
     });
   }

@@ -142,7 +142,7 @@ void FieldFiles<Dim>::write(const model::BasicReached<Dim>& reached, double time
   const std::string bodies = fmt::format("bodies_{:05d}.vtu", frame_);
   io::write_vtu(listed(bodies),
                 {built_.model.mesh.nodes, bodies_.blocks, fields, bodies_.fields, bodies_.names},
-                compress_);
+                compress_, built_.options.threads);
   const std::size_t before = entries_.size();
   entries_.push_back({time, "bodies", bodies});
   if (!built_.model.rigid.empty()) {
@@ -186,7 +186,7 @@ void FieldFiles<Dim>::swings(const model::BasicReached<Dim>& reached, double fre
   io::write_vtu(
       listed(bodies),
       {built_.model.mesh.nodes, bodies_.blocks, real_part_, bodies_.fields, bodies_.names},
-      compress_);
+      compress_, built_.options.threads);
   const std::size_t before = entries_.size();
   entries_.push_back({frequency, "bodies", bodies});
   ++frame_;
@@ -199,7 +199,8 @@ void FieldFiles<Dim>::write_contact(const model::BasicSystem<Dim>& system,
                                     const model::BasicState<Dim>& state, std::size_t pair,
                                     const std::string& stem) {
   DataSet set = contact_set(system, built_.model, state, pair);
-  io::write_vtu(listed(stem + ".vtu"), {set.points, set.cells, set.point_fields, {}}, compress_);
+  io::write_vtu(listed(stem + ".vtu"), {set.points, set.cells, set.point_fields, {}}, compress_,
+                built_.options.threads);
   if (!tables_) return;
   std::vector<io::Field>& fields = set.point_fields;
   std::swap(fields[0], fields[1]);
@@ -213,7 +214,7 @@ void FieldFiles<Dim>::write_rigid(const model::BasicState<Dim>& state, const std
   io::write_vtu(
       listed(file),
       {set.points, set.cells, set.point_fields, set.cell_fields, std::span(bodies_.names).first(1)},
-      compress_);
+      compress_, built_.options.threads);
 }
 
 template <int Dim>
@@ -235,7 +236,7 @@ void FieldFiles<Dim>::write_last_iterate(const model::BasicState<Dim>& state,
   }
   io::write_vtu(folder_ + "/last_iterate.vtu",
                 {built_.model.mesh.nodes, bodies_.blocks, fields, bodies_.fields, bodies_.names},
-                compress_);
+                compress_, built_.options.threads);
 }
 
 namespace {
@@ -294,7 +295,7 @@ void FieldFiles<Dim>::write_modes(const std::string& step, const model::BasicSta
   }
   io::write_vtu(listed(fmt::format("modes_{}.vtu", step)),
                 {built_.model.mesh.nodes, bodies_.blocks, fields, bodies_.fields, bodies_.names},
-                compress_);
+                compress_, built_.options.threads);
   io::write_file(listed(fmt::format("modes_{}.csv", step)), rows);
 }
 
@@ -311,7 +312,7 @@ void FieldFiles<Dim>::write_buckling(const std::string& step, const model::Basic
     rows += fmt::format("{},{}\n", i + 1, found.factors[i]);
   io::write_vtu(listed(fmt::format("buckling_{}.vtu", step)),
                 {built_.model.mesh.nodes, bodies_.blocks, fields, bodies_.fields, bodies_.names},
-                compress_);
+                compress_, built_.options.threads);
   io::write_file(listed(fmt::format("buckling_{}.csv", step)), rows);
 }
 

@@ -293,9 +293,6 @@ std::size_t allocations(const std::string& text, double fraction, int& steps) {
 }
 
 TEST(ExplicitImpact, TimeStepsAllocateNothing) {
-#ifdef __clang__
-  GTEST_SKIP() << "LLVM's OpenMP itself allocates at every parallel region";
-#endif
   const std::string text = edited(edited(test_file("explicit.yaml"), "neo_hooke", "linear_elastic"),
                                   "{safety: 0.9}", "{step: 1e-4}");
   int few = 0, many = 0;

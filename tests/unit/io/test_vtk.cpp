@@ -178,6 +178,17 @@ TEST(VtuFile, PackingMakesItSmaller) {
   std::filesystem::remove(path);
 }
 
+TEST(VtuFile, BytesDoNotDependOnThreads) {
+  const Sample s = sample(150);  // fields of several packets, which several threads pack
+  ASSERT_GT(s.points[0].values.size() * sizeof(double), std::size_t{4} << 18U);
+  const std::string path = temp("threads.vtu");
+  write_vtu(path, data_of(s), true, 1);
+  const std::string by_one = read_file(path);
+  write_vtu(path, data_of(s), true, 3);
+  EXPECT_EQ(read_file(path), by_one);
+  std::filesystem::remove(path);
+}
+
 TEST(VtuFile, FieldsThatDoNotFitAreADefect) {
   Sample s = sample(1);
   s.points[0].values.pop_back();
