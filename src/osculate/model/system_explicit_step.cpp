@@ -1,5 +1,6 @@
 // Explicit time integration: the longest stable time step.
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
