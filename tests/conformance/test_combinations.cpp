@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "effort.hpp"
 #include "expectations.hpp"
 #include "osculate/deck/parse.hpp"
 #include "osculate/pairing/combinations.hpp"
@@ -171,11 +172,7 @@ TEST(Combinations, OfThePlaneAreRefusedWithTheSentenceOfTheTableOrConform) {
 class CombinationsOfSpace : public ::testing::TestWithParam<std::size_t> {};
 
 TEST_P(CombinationsOfSpace, AreRefusedWithTheSentenceOfTheTableOrConform) {
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer)
-  if (GetParam() > 0) GTEST_SKIP() << "one part is enough for a slow build";
-#endif
-#endif
+  if (testing::sanitized && GetParam() > 0) GTEST_SKIP() << "one part is enough for a slow build";
   expect_refusal_or_conformity<3>(5, GetParam());
 }
 

@@ -241,7 +241,10 @@ std::string reference(const Spec& spec, std::string_view title) {
   return text;
 }
 
-std::string explain_model_key(std::string_view key) { return explain(model_spec(), key); }
+std::string explain_model_key(std::string_view key) {
+  static const Spec spec = model_spec();
+  return explain(spec, key);
+}
 std::string model_reference() { return reference(model_spec(), "Model file"); }
 
 }  // namespace osculate::deck
