@@ -79,7 +79,8 @@ void expect_enclosed(const std::string& name, const Target<Dim>& target, double 
   constexpr double rounding = 1e-9;
   const Reach<Dim> found = reach(Composed<Dim>(target));
   const ReachBound told = reach_bound<Dim>(target, found);
-  const ReachBound untold = reach_bound<Dim>(target, nothing_found<Dim>(), {.effort = testing::sanitized ? 5000 : 20000});
+  const ReachBound untold =
+      reach_bound<Dim>(target, nothing_found<Dim>(), {.effort = testing::sanitized ? 5000 : 20000});
   const auto check = [&](const SideBound& bound, double value, double least) {
     EXPECT_LE(bound.least, value * (1 + rounding));
     EXPECT_GE(bound.least, least);
@@ -233,7 +234,8 @@ TEST(ReachBound, TurnsMovesAndScales) {
 
 TEST(ReachBound, SaysWhyNothingIsProved) {
   const auto gap_of = [](const Target<3>& target) {
-    return reach_bound<3>(target, nothing_found<3>(), {.effort = testing::sanitized ? 5000 : 20000}).above;
+    return reach_bound<3>(target, nothing_found<3>(), {.effort = testing::sanitized ? 5000 : 20000})
+        .above;
   };
   EXPECT_EQ(gap_of(Shape<3>(geometry::Cone{.half_angle = 0.5, .to = 2})).gap, Gap::shape);
   // a plate with a notch: three quarters of a square
