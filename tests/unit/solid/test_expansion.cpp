@@ -87,8 +87,9 @@ TEST_P(ExpandingCell, HasAForceThatIsTheDerivativeOfItsEnergy) {
       return Eigen::VectorXd::Constant(1, energy(c, x, at, heated(strains)));
     };
     const double work = answer(c, x, u, false, heated(strains)).force.dot(along);
+    // Energies that are quadratic leave nothing but rounding, which goes with 1/h.
     const auto r = osculate::testing::check_derivative(
-        potential, Eigen::VectorXd::Constant(1, work), flat(u), along);
+        potential, Eigen::VectorXd::Constant(1, work), flat(u), along, 4e-3);
     EXPECT_TRUE(r.exact || std::abs(r.order - 2) < 0.1) << r.order << " " << r.error;
   });
 }
