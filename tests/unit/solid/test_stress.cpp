@@ -88,7 +88,7 @@ TEST_P(CellStresses, TurnWithTheBody) {
     const CellValues a = point_values(c, x, u);
     const CellValues b = point_values(c, x, (x + u) * q.transpose() - x);
     const double rounding = c.kind == Kind::plane ? 2e-13 : 1e-13 * stiffness_scale(c, x);
-    // Places of about 1 are rounded three times as they turn, and twenty gradients of 1 to 4 add up.
+    // Places of about 1 are rounded three times as they turn; twenty gradients of 1 to 4 add up.
     constexpr double rounding_of_strain = 64 * std::numeric_limits<double>::epsilon();
     for (std::size_t i = 0; i < a.at.size(); ++i) {
       const Eigen::MatrixXd expected = q * tensor(c, a.at[i].stress) * q.transpose();
