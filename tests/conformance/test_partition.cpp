@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "by_ranks.hpp"
+#include "effort.hpp"
 #include "osculate/deck/parse.hpp"
 
 namespace osculate {
@@ -82,7 +83,8 @@ void expect_no_difference(const std::string& text) {
   ASSERT_EQ(alone.outcome, solve::Outcome::converged) << alone.message;
   const std::vector<int> last(alone.counts.end() - 4, alone.counts.end());
   EXPECT_GT(last[1] + last[2] + last[3], 0);  // in contact
-  for (const int count : {3, 8}) testing::expect_the_same_by<Dim>(count, built, alone);
+  for (const int count : {3, 8})
+    if (count == 3 || !testing::sanitized) testing::expect_the_same_by<Dim>(count, built, alone);
 }
 
 TEST_P(Partition, OfThePlaneShowsInNoBit) { expect_no_difference<2>(in_the_plane(GetParam())); }
