@@ -212,7 +212,7 @@ class Watched final : public la::LinearSolver {
 TEST(ChangingUnknowns, IterationsOfTheFewGiveTheSameResults) {
   for (std::string text : models()) {
     const bool corrected = text.find("augmented") != std::string::npos;
-    if (testing::sanitized && corrected) continue;  // four times as large
+    if (testing::sanitized && corrected) continue;  // the longest of them
     text = edited(text, "[24, 12]", corrected ? "[72, 36]" : "[52, 26]");
     text = edited(text, "[10, 10]", corrected ? "[30, 30]" : "[18, 20]");
     SCOPED_TRACE(text);
