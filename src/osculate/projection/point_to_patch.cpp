@@ -17,7 +17,7 @@ using geometry::PatchSpan;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// One span of the patch and the point to project.
-struct Piece {
+struct PatchPiece {
   const NurbsPatch& patch;
   Vec3 point;
   PatchSpan span;
@@ -30,7 +30,7 @@ struct Sample {
   Vec2 noise{0, 0};  ///< rounding error to expect in the slope
 };
 
-Sample sample_at(const Piece& piece, const Vec2& xi) {
+Sample sample_at(const PatchPiece& piece, const Vec2& xi) {
   const geometry::SurfaceJet jet = piece.patch.jet_in_span(piece.span, xi, 2);
   const Vec3 gap = piece.point - jet.r;
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -48,7 +48,7 @@ struct Best {
 };
 
 /// Pressed against a side of the piece: moving inwards would only lead away.
-bool pressed(const Piece& piece, const Sample& s, Eigen::Index i) {
+bool pressed(const PatchPiece& piece, const Sample& s, Eigen::Index i) {
   return (s.xi[i] <= piece.lo[i] && s.distance.slope[i] > 0) ||
          (s.xi[i] >= piece.hi[i] && s.distance.slope[i] < 0);
 }
@@ -66,7 +66,7 @@ Vec2 free_step(const Sample& s, const std::array<bool, 2>& fixed) {
 }
 
 /// Tries the step, halved until the distance shrinks; true if `s` has moved.
-bool advance(const Piece& piece, const Vec2& step, Sample& s) {
+bool advance(const PatchPiece& piece, const Vec2& step, Sample& s) {
   constexpr int most = 40;
   Vec2 part = step;
   for (int half = 0; half < most; ++half, part *= 0.5) {
@@ -82,7 +82,7 @@ bool advance(const Piece& piece, const Vec2& step, Sample& s) {
 }
 
 /// Takes full Newton steps that the distance is too coarse to judge, while the slope shrinks.
-void polish(const Piece& piece, const std::array<bool, 2>& fixed, Sample& s) {
+void polish(const PatchPiece& piece, const std::array<bool, 2>& fixed, Sample& s) {
   for (int it = 0; it < 3 && positive(s.distance.bend); ++it) {
     const Vec2 step = free_step(s, fixed);
     if (!step.allFinite()) return;
@@ -99,7 +99,7 @@ void polish(const Piece& piece, const std::array<bool, 2>& fixed, Sample& s) {
 }
 
 /// Local minimum of the piece below `s`.
-void descend(const Piece& piece, Sample& s) {
+void descend(const PatchPiece& piece, Sample& s) {
   constexpr int most = 60;
   std::array<bool, 2> fixed{};
   for (int it = 0; it < most; ++it) {
@@ -144,7 +144,7 @@ bool local_minimum(const Grid& grid, const std::array<int, 2>& last, int i, int 
 }
 
 /// Improves `best` by the minima of one piece.
-void search_piece(const Piece& piece, Best& best) {
+void search_piece(const PatchPiece& piece, Best& best) {
   Grid grid;
   const std::array<int, 2> last{2 * piece.patch.degree[0], 2 * piece.patch.degree[1]};
   const auto xi_at = [&](int i, int j) {
@@ -175,7 +175,7 @@ void for_each_piece(const NurbsPatch& patch, const Vec3& point, const Visit& vis
     for (Index j = patch.degree[1]; j < patch.count[1]; ++j) {
       const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
       if (!(u[0][a] < u[0][a + 1] && u[1][b] < u[1][b + 1])) continue;
-      visit(Piece{patch, point, {i, j}, {u[0][a], u[1][b]}, {u[0][a + 1], u[1][b + 1]}});
+      visit(PatchPiece{patch, point, {i, j}, {u[0][a], u[1][b]}, {u[0][a + 1], u[1][b + 1]}});
     }
 }
 
@@ -212,16 +212,16 @@ SurfaceFoot closest_point(const geometry::NurbsPatch& patch, const Vec3& point) 
   // The most promising span first, then those that may hold something nearer.
   double least = infinity;
   PatchSpan first{-1, -1};
-  for_each_piece(patch, point, [&](const Piece& piece) {
+  for_each_piece(patch, point, [&](const PatchPiece& piece) {
     const double d = nearest_possible(patch, piece.span, point);
     if (d < least) least = d, first = piece.span;
   });
   Best best;
   best.sample.distance.squared_distance = infinity;
-  for_each_piece(patch, point, [&](const Piece& piece) {
+  for_each_piece(patch, point, [&](const PatchPiece& piece) {
     if (piece.span == first) search_piece(piece, best);
   });
-  for_each_piece(patch, point, [&](const Piece& piece) {
+  for_each_piece(patch, point, [&](const PatchPiece& piece) {
     if (piece.span == first) return;
     if (nearest_possible(patch, piece.span, point) < best.squared_distance())
       search_piece(piece, best);
