@@ -21,13 +21,15 @@ struct Crew::Impl {
   using Clock = std::chrono::steady_clock;
   static constexpr std::size_t line = 64;  // of the cache: what is written by turns is kept apart
   static constexpr int at_once = 1000;     // looks before others get the core
+  static constexpr double least_patience = 8, most_patience = 128;
   alignas(line) std::atomic<unsigned> gate{0};
   alignas(line) std::atomic<int> inside{0};
   alignas(line) std::atomic<std::size_t> next{0};
   alignas(line) std::size_t pieces = 0;
   Work work;
-  int alone = 0;         ///< loops that nobody is asked to help with
-  int after_delay = 64;  ///< how many these are after the next delay
+  double gained = 0;                ///< [s] by the others, less what was waited for them
+  Clock::time_point alone_until{};  ///< nobody is asked to help before
+  double patience = least_patience;
   std::atomic<bool> ends{false};
   std::atomic<int> asleep{0};
   std::mutex mutex;
@@ -38,19 +40,22 @@ struct Crew::Impl {
   void start(int count);
   void serve();
   void open_gate();
-  void wait_for_others(Clock::time_point begun);
+  void wait_for_others(Clock::time_point begun, std::size_t own);
   void sleep(unsigned seen);
-  void take_pieces();
+  std::size_t take_pieces();
   [[nodiscard]] bool changes_soon(unsigned seen) const;
 };
 
-void Crew::Impl::take_pieces() {
-  for (std::size_t piece = next++; piece < pieces; piece = next++) try {
+/// How many it were.
+std::size_t Crew::Impl::take_pieces() {
+  std::size_t taken = 0;
+  for (std::size_t piece = next++; piece < pieces; piece = next++, ++taken) try {
       work.call(work.of, piece);
     } catch (...) {
       const std::lock_guard lock(mutex);
       if (!failure) failure = std::current_exception();
     }
+  return taken;
 }
 
 /// Whether the gate is another than `seen` before it is worth to sleep.
@@ -91,21 +96,28 @@ void Crew::Impl::serve() {
   }
 }
 
-/// `begun`: the loop. Where the wait is longer than what there was to do, the others have no core
-/// of their own: they are let alone for a while, twice as long each time.
-void Crew::Impl::wait_for_others(Clock::time_point begun) {
-  constexpr std::chrono::microseconds delay{300};
-  constexpr int at_least = 64, at_most = 1 << 14;
-  for (int i = 0; i < at_once; ++i)
-    if (inside == 0) {
-      after_delay = std::max(at_least, after_delay - 1);
-      return;
-    }
+/// `begun`: the loop, of which this thread has done `own` pieces. Where others have no core of
+/// their own, who waits for them loses more than they do for it: they are let alone then, many
+/// times as long as what was lost. A delay now and then, of a core that does something else for
+/// once, is made up for by what they did before.
+void Crew::Impl::wait_for_others(Clock::time_point begun, std::size_t own) {
+  constexpr double reserve = 5e-3;
+  const auto seconds = [](Clock::duration d) { return std::chrono::duration<double>(d).count(); };
   const auto waits = Clock::now();
-  while (inside != 0) std::this_thread::yield();
-  if (Clock::now() - waits < std::max<Clock::duration>(delay, waits - begun)) return;
-  alone = after_delay;
-  after_delay = std::min(at_most, 2 * after_delay);
+  auto now = waits;
+  for (int i = 0; inside != 0; ++i) {
+    if (i >= at_once) std::this_thread::yield();
+    now = Clock::now();
+  }
+  const double by_others =
+      static_cast<double>(pieces - own) / static_cast<double>(std::max<std::size_t>(1, own));
+  gained = std::min(reserve, gained + by_others * seconds(waits - begun) - seconds(now - waits));
+  if (gained == reserve) patience = least_patience;
+  if (gained >= 0) return;
+  alone_until = now + std::chrono::duration_cast<Clock::duration>(
+                          std::chrono::duration<double>(-patience * gained));
+  patience = std::min(most_patience, 2 * patience);
+  gained = 0;
 }
 
 /// With fewer where the system gives no more.
@@ -132,16 +144,16 @@ void Crew::share(std::size_t pieces, Work work) {
   s.work = work;
   s.pieces = pieces;
   s.next = 0;
-  if (threads_ == 1 || pieces < 2 || s.alone > 0) {
-    if (pieces > 1) s.alone = std::max(0, s.alone - 1);
+  const bool alone = threads_ == 1 || pieces < 2;
+  const auto begun = alone ? Impl::Clock::time_point{} : Impl::Clock::now();
+  if (alone || begun < s.alone_until) {
     s.take_pieces();
   } else {
     s.start(threads_ - 1);
-    const auto begun = Impl::Clock::now();
     s.open_gate();
-    s.take_pieces();
+    const std::size_t own = s.take_pieces();
     ++s.gate;
-    s.wait_for_others(begun);
+    s.wait_for_others(begun, own);
   }
   if (s.failure) std::rethrow_exception(std::exchange(s.failure, {}));
 }
