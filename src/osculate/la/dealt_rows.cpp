@@ -12,8 +12,9 @@ Dealt dealt_as(const SparseMatrix& k) {
   dealt.ranks = k.ranks;
   if (!k.ranks) return dealt;
   std::vector<double> owner(as_size(k.n), -1);
+  const int me = k.ranks->rank();
   for (Index i = 0; i < k.n; ++i)
-    if (k.row_start[as_size(i)] < k.row_start[as_size(i) + 1]) owner[as_size(i)] = k.ranks->rank();
+    if (k.row_start[as_size(i)] < k.row_start[as_size(i) + 1]) owner[as_size(i)] = me;
   k.ranks->largest(owner);
   dealt.first.assign(static_cast<std::size_t>(k.ranks->count()) + 1, 0);
   for (const double process : owner) {
@@ -21,6 +22,8 @@ Dealt dealt_as(const SparseMatrix& k) {
     ++dealt.first[static_cast<std::size_t>(process) + 1];
   }
   std::partial_sum(dealt.first.begin(), dealt.first.end(), dealt.first.begin());
+  dealt.begin = dealt.first[static_cast<std::size_t>(me)];
+  dealt.end = dealt.first[static_cast<std::size_t>(me) + 1];
   std::vector<Index> next = dealt.first;
   dealt.number.resize(as_size(k.n));
   dealt.unknown.resize(as_size(k.n));
@@ -116,8 +119,7 @@ CompressedRows translated(CompressedRows& rows, const std::vector<Index>& here, 
 
 RowsHere rows_here(const SparseMatrix& k, Symmetry symmetry, const Dealt& dealt) {
   if (!dealt.ranks) return {compressed(k, symmetry), Halo(k.n)};
-  const auto me = static_cast<std::size_t>(dealt.ranks->rank());
-  const Index begin = dealt.first[me], own = dealt.first[me + 1] - begin;
+  const Index begin = dealt.begin, own = dealt.end - begin;
   CompressedRows rows = own_rows(k, symmetry, dealt, begin, own);
   constexpr Index unseen = -1, seen = -2;
   std::vector<Index> here(as_size(k.n), unseen), others;

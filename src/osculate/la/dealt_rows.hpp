@@ -12,12 +12,11 @@ namespace osculate::la {
 struct Dealt {
   const core::Ranks* ranks = nullptr;
   std::vector<Index> number, unknown, first;
+  Index begin = 0, end = 0;  ///< numbers of this process
 
   /// Whether the row of the unknown is here.
   [[nodiscard]] bool is_here(Index of) const {
-    if (!ranks) return true;
-    const auto me = static_cast<std::size_t>(ranks->rank());
-    return number[as_size(of)] >= first[me] && number[as_size(of)] < first[me + 1];
+    return !ranks || (number[as_size(of)] >= begin && number[as_size(of)] < end);
   }
 };
 

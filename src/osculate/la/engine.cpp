@@ -19,9 +19,31 @@ struct Part {
   Dealt dealt;
   Halo halo;
   std::vector<Index> unknowns;  ///< those here, own ones first; none, where all are
+  std::vector<Index> here;      ///< of each unknown, likewise; -1 where it is none of them
 
   [[nodiscard]] Index unknown(Index here) const {
     return dealt.ranks ? unknowns[as_size(here)] : here;
+  }
+  /// Calls take(column here, value) for what is not zero in an own row, in the order of the
+  /// columns. A column that is not here has the number behind them.
+  template <class Take>
+  void for_each_in_row(const SparseMatrix& k, Index row, const Take& take) const {
+    const std::size_t u = as_size(unknown(row));
+    std::vector<std::pair<Index, double>> others;
+    for (Index e = k.row_start[u]; e < k.row_start[u + 1]; ++e) {
+      const Index column = k.column[as_size(e)];
+      const double value = k.value[as_size(e)];
+      if (value == 0) continue;
+      if (!dealt.ranks)
+        take(column, value);
+      else if (const Index j = here[as_size(column)]; j >= 0 && j < halo.own())
+        take(j, value);
+      else
+        others.emplace_back(j < 0 ? halo.here() : j, value);
+    }
+    if (others.empty()) return;
+    std::ranges::sort(others, {}, &std::pair<Index, double>::first);
+    for (const auto& [j, value] : others) take(j, value);
   }
   [[nodiscard]] Eigen::VectorXd own(const Eigen::VectorXd& all) const {
     if (dealt.ranks) return all(unknowns).head(halo.own());
@@ -251,7 +273,7 @@ class MultigridEngine final : public Engine {
   Nearby solve(const PreconditionedLimits& limits, Eigen::VectorXd& rhs) override {
     PreconditionedSolutions by(
         [this](const Eigen::VectorXd& x, Eigen::VectorXd& y) { multiply_own(x, y); },
-        [this](Eigen::VectorXd& r) { return precondition(r); }, part_.dealt.ranks);
+        [this](Eigen::VectorXd& r) { return precondition(r); }, part_.dealt.ranks, crew_.get());
     Eigen::VectorXd own = part_.own(rhs);
     const Nearby done = by.solve(limits, own);
     if (done.solved) rhs = part_.all(std::move(own));
@@ -278,21 +300,24 @@ class MultigridEngine final : public Engine {
     RowsHere rows = rows_here(k, symmetry, part_.dealt);
     part_.halo = std::move(rows.halo);
     part_.unknowns.clear();
-    for (Index i = 0; part_.dealt.ranks && i < part_.halo.here(); ++i)
-      part_.unknowns.push_back(part_.dealt.unknown[as_size(part_.halo.number_everywhere(i))]);
+    if (part_.dealt.ranks) {
+      part_.here.assign(as_size(k.n), -1);
+      for (Index i = 0; i < part_.halo.here(); ++i) {
+        part_.unknowns.push_back(part_.dealt.unknown[as_size(part_.halo.number_everywhere(i))]);
+        part_.here[as_size(part_.unknowns.back())] = i;
+      }
+    }
     return taken(rows.a);
   }
   /// Takes a matrix. False: not as one with the places for entries that the last one had.
   bool update(const SparseMatrix& k, Symmetry symmetry, const Places& places,
               std::vector<char>& differs) {
-    const bool may = std::exchange(in_step_, false) && a_.rows() == part_.halo.own();
+    const bool may = std::exchange(in_step_, false) && a_.rows() == part_.halo.own() &&
+                     (part_.dealt.ranks || a_.rows() == k.n);
     bool fits = false;
-    if (symmetry == Symmetry::unsymmetric && !part_.dealt.ranks) {
-      const auto rows = [&](Index i, const auto& take) {
-        for (Index e = k.row_start[as_size(i)]; e < k.row_start[as_size(i) + 1]; ++e)
-          if (k.value[as_size(e)] != 0) take(k.column[as_size(e)], k.value[as_size(e)]);
-      };
-      fits = may && a_.rows() == k.n && a_.update(rows, *crew_, differs);
+    if (symmetry == Symmetry::unsymmetric) {
+      const auto rows = [&](Index i, const auto& each) { part_.for_each_in_row(k, i, each); };
+      fits = part_.halo.all(may && a_.update(rows, *crew_, differs));
       if (!fits) a_ = {};
       if (!fits) take(take_part(k, symmetry), places);
     } else {
@@ -305,7 +330,7 @@ class MultigridEngine final : public Engine {
       fits = may && others == part_.halo.others() && a_.update(rows, *crew_, differs);
       if (!fits) take(a, places);
     }
-    if (fits) take_diagonal();
+    if (fits) take_diagonal(&differs);
     return fits;
   }
   bool build(CompressedRows&& a, Symmetry symmetry, const Places& places) {
@@ -321,13 +346,15 @@ class MultigridEngine final : public Engine {
     a_ = GroupedRows<double>(a, groups_of(places, part_), *crew_);
     take_diagonal();
   }
-  void take_diagonal() {
-    Eigen::VectorXd own(a_.rows());
+  /// `differs`: of the groups, whether there are others than before; null: of all of them.
+  void take_diagonal(const std::vector<char>* differs = nullptr) {
+    own_diagonal_.resize(a_.rows());
     for (std::size_t g = 0; g + 1 < a_.groups().size(); ++g) {
+      if (differs && (*differs)[g] == 0) continue;
       const Eigen::VectorXd of = a_.diagonal_block(g).diagonal().cwiseAbs();
-      own.segment(a_.groups()[g], of.size()) = of;
+      own_diagonal_.segment(a_.groups()[g], of.size()) = of;
     }
-    diagonal_ = part_.all(std::move(own));
+    diagonal_ = part_.all(Eigen::VectorXd(own_diagonal_));
   }
   void multiply_own(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
     if (!part_.dealt.ranks) return a_.multiply(x, *crew_, y);
@@ -350,7 +377,7 @@ class MultigridEngine final : public Engine {
   Part part_;
   GroupedRows<double> a_;
   bool in_step_ = false;  ///< what `bodies_` multiply with has the places and values of `a_`
-  Eigen::VectorXd diagonal_;
+  Eigen::VectorXd own_diagonal_, diagonal_;
   std::unique_ptr<Multigrid> bodies_;
   Exact exact_;
   Symmetry symmetry_ = Symmetry::unsymmetric;

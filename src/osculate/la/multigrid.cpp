@@ -8,6 +8,7 @@
 #include "osculate/la/block_diagonal.hpp"
 #include "osculate/la/by_itself.hpp"
 #include "osculate/la/grouped_rows.hpp"
+#include "osculate/la/long_vectors.hpp"
 #include "osculate/la/mumps.hpp"
 #include "osculate/la/preconditioned.hpp"
 
@@ -89,17 +90,27 @@ void Level::smooth(Eigen::VectorXd& solution, bool residual_wanted, core::Crew& 
   const Index own = halo.own();
   inverse.apply(r, crew, t);
   d.resize(halo.here());
-  d.head(own) = t / middle;
-  for (int i = 1;; ++i) {
-    solution += d.head(own);
-    if (i == degree && !residual_wanted) return;
+  const auto move_by = [&](double before, double fresh) {
+    for_vector_pieces(own, &crew, [&](Eigen::Index first, Eigen::Index size) {
+      auto step = d.segment(first, size);
+      if (before == 0)
+        step = fresh * t.segment(first, size);
+      else
+        step = before * step + fresh * t.segment(first, size);
+      solution.segment(first, size) += step;
+    });
+  };
+  move_by(0, 1 / middle);
+  for (int i = 1; i < degree || residual_wanted; ++i) {
     halo.update(d);
     products.multiply(d, crew, t);
-    r -= t;
+    for_vector_pieces(own, &crew, [&](Eigen::Index first, Eigen::Index size) {
+      r.segment(first, size) -= t.segment(first, size);
+    });
     if (i == degree) return;
     const double next = 1 / (2 * sigma - rho);
     inverse.apply(r, crew, t);
-    d.head(own) = next * rho * d.head(own) + (2 * next / half) * t;
+    move_by(next * rho, 2 * next / half);
     rho = next;
   }
 }
@@ -302,11 +313,16 @@ bool Multigrid::Impl::cycle(std::size_t level, const Eigen::VectorXd& b, Eigen::
   fine.of_coarse.conservativeResize(coarse.here());
   coarse.update(fine.of_coarse);
   fine.p.multiply(fine.of_coarse, crew, fine.d);
-  x += fine.d;
+  const auto add = [&](const Eigen::VectorXd& from, double factor, Eigen::VectorXd& to) {
+    for_vector_pieces(to.size(), &crew, [&](Eigen::Index first, Eigen::Index size) {
+      to.segment(first, size) += factor * from.segment(first, size);
+    });
+  };
+  add(fine.d, 1, x);
   fine.d.conservativeResize(fine.halo.here());
   fine.halo.update(fine.d);
   fine.products.multiply(fine.d, crew, fine.t);
-  fine.r -= fine.t;
+  add(fine.t, -1, fine.r);
   fine.smooth(x, false, crew);
   return true;
 }

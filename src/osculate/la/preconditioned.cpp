@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "osculate/la/long_vectors.hpp"
+
 namespace osculate::la {
 namespace {
 
@@ -22,7 +24,7 @@ struct PreconditionedSolutions::Running {
 };
 
 double PreconditionedSolutions::norm(const Eigen::VectorXd& v) const {
-  const double own = v.stableNorm();
+  const double own = la::norm(v, crew_);
   return ranks_ ? std::sqrt(ranks_->sum(own * own)) : own;
 }
 
@@ -37,11 +39,22 @@ void PreconditionedSolutions::find_true_residual(Running& to) const {
   to.left = norm(to.rest);
 }
 
+/// Of all processes.
+Eigen::VectorXd PreconditionedSolutions::in_all(Eigen::VectorXd sums) const {
+  if (ranks_) ranks_->sum({sums.data(), static_cast<std::size_t>(sums.size())});
+  return sums;
+}
+
 void PreconditionedSolutions::take(std::size_t along, Running& to) const {
-  double part = image_[along].dot(to.rest);
-  if (ranks_) part = ranks_->sum(part);
-  to.x += part * along_[along];
-  to.rest -= part * image_[along];
+  const Eigen::VectorXd &image = image_[along], &direction = along_[along];
+  const double part = in_all(
+      sum_over_pieces(image.size(), 1, crew_, [&](Eigen::Index first, Eigen::Index size, auto sum) {
+        sum[0] = image.segment(first, size).dot(to.rest.segment(first, size));
+      }))[0];
+  for_vector_pieces(image.size(), crew_, [&](Eigen::Index first, Eigen::Index size) {
+    to.x.segment(first, size) += part * direction.segment(first, size);
+    to.rest.segment(first, size) -= part * image.segment(first, size);
+  });
 }
 
 /// False: nothing new.
@@ -50,20 +63,38 @@ bool PreconditionedSolutions::look_along(Eigen::VectorXd z) {
   Eigen::VectorXd v;
   a_(z, v);
   const double whole = norm(v);
-  std::vector<double> parts(image_.size()), both(image_.size(), 0.0);
-  for (int twice = 0; twice < 2 && !parts.empty(); ++twice) {
-    for (std::size_t j = 0; j < parts.size(); ++j) parts[j] = image_[j].dot(v);
-    if (ranks_) ranks_->sum(parts);
-    for (std::size_t j = 0; j < parts.size(); ++j) {
-      v -= parts[j] * image_[j];
-      both[j] += parts[j];
-    }
+  const auto count = static_cast<Eigen::Index>(image_.size());
+  // Piece by piece, so that what is subtracted from v is in the cache for the next sums.
+  const auto less = [&](const Eigen::VectorXd& parts, const std::vector<Eigen::VectorXd>& of,
+                        Eigen::Index first, Eigen::Index size, Eigen::VectorXd& from) {
+    for (std::size_t j = 0; j < of.size(); ++j)
+      from.segment(first, size) -= parts[static_cast<Eigen::Index>(j)] * of[j].segment(first, size);
+  };
+  const auto parts_after = [&](const Eigen::VectorXd* subtracted) {
+    return in_all(sum_over_pieces(
+        v.size(), count, crew_, [&](Eigen::Index first, Eigen::Index size, auto sum) {
+          if (subtracted) less(*subtracted, image_, first, size, v);
+          for (std::size_t j = 0; j < image_.size(); ++j)
+            sum[static_cast<Eigen::Index>(j)] =
+                image_[j].segment(first, size).dot(v.segment(first, size));
+        }));
+  };
+  if (count > 0) {
+    const Eigen::VectorXd once = parts_after(nullptr), again = parts_after(&once);
+    const Eigen::VectorXd both = once + again;
+    for_vector_pieces(v.size(), crew_, [&](Eigen::Index first, Eigen::Index size) {
+      less(again, image_, first, size, v);
+      less(both, along_, first, size, z);
+    });
   }
-  for (std::size_t j = 0; j < both.size(); ++j) z -= both[j] * along_[j];
   const double size = norm(v);
   if (!(size > nothing * whole) || !std::isfinite(size)) return false;
-  image_.push_back(v / size);
-  along_.push_back(z / size);
+  for_vector_pieces(v.size(), crew_, [&](Eigen::Index first, Eigen::Index length) {
+    v.segment(first, length) /= size;
+    z.segment(first, length) /= size;
+  });
+  image_.push_back(std::move(v));
+  along_.push_back(std::move(z));
   return true;
 }
 

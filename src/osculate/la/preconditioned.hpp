@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "osculate/core/crew.hpp"
 #include "osculate/core/ranks.hpp"
 
 namespace osculate::la {
@@ -43,8 +44,9 @@ struct Nearby {
 /// Tested by  tests/unit/la/test_preconditioned.cpp, test_nearby.cpp, test_iterative.cpp
 class PreconditionedSolutions {
  public:
-  PreconditionedSolutions(Multiply a, Precondition precondition, const core::Ranks* ranks = nullptr)
-      : a_(std::move(a)), precondition_(std::move(precondition)), ranks_(ranks) {}
+  PreconditionedSolutions(Multiply a, Precondition precondition, const core::Ranks* ranks = nullptr,
+                          core::Crew* crew = nullptr)
+      : a_(std::move(a)), precondition_(std::move(precondition)), ranks_(ranks), crew_(crew) {}
   /// Returns    `solved` where |b - A x| <= tolerance |b|, or `good_enough` where no more is to be
   ///            had; else nothing is changed
   Nearby solve(const PreconditionedLimits& limits, Eigen::VectorXd& rhs_in_solution_out);
@@ -56,6 +58,7 @@ class PreconditionedSolutions {
   void find_true_residual(Running& to) const;
   void take(std::size_t along, Running& to) const;
   bool look_along(Eigen::VectorXd z);
+  [[nodiscard]] Eigen::VectorXd in_all(Eigen::VectorXd sums) const;
   bool step(Running& to, int& iterations);
   /// False: no more is to be had.
   [[nodiscard]] bool goes_on(const PreconditionedLimits& limits, Running& to);
@@ -63,6 +66,7 @@ class PreconditionedSolutions {
   Multiply a_;
   Precondition precondition_;
   const core::Ranks* ranks_;
+  core::Crew* crew_;
   std::vector<Eigen::VectorXd> along_, image_;  ///< A along = image
 };
 
