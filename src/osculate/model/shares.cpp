@@ -54,21 +54,21 @@ Shares shares_of(const BasicModel<Dim>& model, const BasicDofSpace<Dim>& dofs, I
   for (Index m = 0; m < multipliers; ++m)
     out.rows[at(unknowns + m)] =
         std::int64_t{m} * count / multipliers == rank;  // neighbours together
+  for (const int of : owner) out.mine.push_back(of == rank ? 1 : 0);
+  out.seen = out.mine;
+  for (Index node = 0; node < dofs.nodes(); ++node)
+    for (int i = 0; i < Dim && out.seen[at(node)] == 0; ++i)
+      for_each_behind(dofs, dofs.node_dof(node, i), [&](Index unknown) {
+        if (out.rows[at(unknown)]) out.seen[at(node)] = 1;
+      });
   std::size_t number = 0;
   for_each_cell(model, [&](const auto&, const mesh::CellRef& cell, const CellMemory&) {
     const std::span<const Index> nodes = cell_nodes(model.mesh, cell).nodes;
-    bool seen = false;
-    for (const Index node : nodes) {
-      seen = seen || owner[at(node)] == rank;
-      for (int i = 0; i < Dim && !seen; ++i)
-        for_each_behind(dofs, dofs.node_dof(node, i),
-                        [&](Index unknown) { seen = seen || out.rows[at(unknown)]; });
-    }
-    if (seen) out.cells.push_back(number);
-    if (owner[at(nodes.front())] == rank) out.own_cells.push_back(number);
+    if (std::ranges::any_of(nodes, [&](Index node) { return out.seen[at(node)] != 0; }))
+      out.cells.push_back(number);
+    if (out.mine[at(nodes.front())] != 0) out.own_cells.push_back(number);
     ++number;
   });
-  for (const int of : owner) out.mine.push_back(of == rank ? 1 : 0);
   return out;
 }
 

@@ -17,6 +17,7 @@ namespace osculate::model {
 /// Tested by  tests/unit/model/test_shares.cpp, tests/ranks
 struct Shares {
   std::vector<char> mine;              ///< by node: owned by this process
+  std::vector<char> seen;              ///< by node: it moves rows of this process
   std::vector<bool> rows;              ///< by unknown, then multipliers: owned by this process
   std::vector<std::size_t> cells;      ///< evaluated by this process, in the order of BulkTerm
   std::vector<std::size_t> own_cells;  ///< of these, those whose first node it owns

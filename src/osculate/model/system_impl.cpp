@@ -69,7 +69,7 @@ BasicSystem<Dim>::Impl::Impl(const BasicModel<Dim>& m, int threads, const core::
       nearly_symmetric(symmetry == la::Symmetry::unsymmetric && constraints.count() == 0 &&
                        !is_unsymmetric_but_for_pressures(m)),
       ranks(of) {
-  contact.threads = bulk.threads;
+  contact.workers.threads = bulk.threads;
   last.contact.resize(model.pairs.size());
   last.memory.resize(memory_size(model));
   touched.assign(model.pairs.size(), false);
@@ -88,8 +88,11 @@ void BasicSystem<Dim>::Impl::share(bool on) {
     ranks->spread(owner, 0);
     bulk.shares = shares_of(model, dofs, constraints.count(), owner, ranks->rank(), ranks->count());
     builder = la::MatrixBuilder(constraints.end, ranks, bulk.shares.rows);
+    contact.workers = {bulk.threads, ranks, bulk.shares.mine, bulk.shares.seen};
   } else {
     builder = la::MatrixBuilder(constraints.end);
+    contact.workers = {};
+    contact.workers.threads = bulk.threads;
   }
   builder.grow_by(grown);
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "osculate/core/error.hpp"
@@ -16,6 +17,7 @@
 #include "osculate/pairing/reentrant_vertex.hpp"
 #include "osculate/pairing/response.hpp"
 #include "osculate/pairing/sampling.hpp"
+#include "osculate/pairing/shared_places.hpp"
 #include "osculate/pairing/tie.hpp"
 
 namespace osculate::pairing {
@@ -175,10 +177,37 @@ class PointLoop {
 
 }  // namespace
 
+namespace {
+
+template <int Dim>
+std::vector<std::size_t> all_points(const PairDefinition<Dim>& pair) {
+  std::vector<std::size_t> all(pair.slave.points.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return all;
+}
+
+/// Whether this process wants the tangent of a point at its place. Rows of multipliers may be
+/// anybody's.
+template <int Dim>
+bool is_seen(const PairDefinition<Dim>& pair, std::size_t i, const Projection<Dim>& place,
+             const Workers& workers) {
+  if (workers.seen.empty() || by_multipliers(pair) || place.facet < 0) return true;
+  const auto seen = [&](const Index node) {
+    return workers.seen[static_cast<std::size_t>(node)] != 0;
+  };
+  const SlavePoint<Dim>& slave = pair.slave.points[i];
+  const auto& facet = pair.master.facets[static_cast<std::size_t>(place.facet)];
+  return std::any_of(slave.nodes.begin(), slave.nodes.begin() + slave.count, seen) ||
+         std::any_of(facet.nodes.begin(), facet.nodes.begin() + facet.count, seen);
+}
+
+}  // namespace
+
 template <int Dim>
 void evaluate(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Dim>& committed,
               bool with_tangent, PairEvaluation<Dim>& out, const ActiveSet<Dim>& active_set,
-              const PairMultipliers<Dim>* multipliers, const BlockTaker<Dim>& take, int threads) {
+              const PairMultipliers<Dim>* multipliers, const BlockTaker<Dim>& take,
+              const Workers& workers) {
   Laps laps;
   out.stiffening = multipliers ? multipliers->stiffening : 1;
   if (is_tied(pair) || by_mortar(pair)) {
@@ -193,12 +222,25 @@ void evaluate(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Di
   refresh(pair, x, with_tangent, out);
   out.near = active_set.near;
   laps.add_to(out.seconds.search);
-  PointLoop<Dim> loop(pair, out, take, threads);
+  const auto place_of = [&](std::size_t i) {
+    const PointContext<Dim> context = context_of(pair, active_set, multipliers, i);
+    return place_of_point(pair, out, x, i, committed.points[i],
+                          kept_facet<Dim>(pair.master, context.active, x));
+  };
+  std::vector<Projection<Dim>> places;
+  if (workers.ranks) {
+    places = places_by_all(pair, all_points(pair), workers, place_of);
+    laps.add_to(out.seconds.projection);
+  }
+  PointLoop<Dim> loop(pair, out, take, workers.threads);
   loop.run([&](std::size_t i, Laps& of_point, PairSeconds& seconds) {
     PointContext<Dim> context = context_of(pair, active_set, multipliers, i);
     if (!committed.overlap.empty()) context.relieved = active_set.relief * committed.overlap[i];
-    evaluate_slave_point(pair, x, committed.points[i], active_set, context, with_tangent, i, out,
-                         of_point, seconds);
+    const Projection<Dim> place = workers.ranks ? places[i] : place_of(i);
+    const bool seen = is_seen(pair, i, place, workers);
+    evaluate_slave_point(pair, x, committed.points[i], active_set, place, context,
+                         with_tangent && seen, i, out, of_point, seconds);
+    if (!seen) out.blocks[i].elsewhere = true;
   });
   if constexpr (Dim == 3)
     if (edges_of(pair)) {
@@ -211,14 +253,23 @@ void evaluate(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Di
 
 template <int Dim>
 void look_far(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Dim>& committed,
-              PairEvaluation<Dim>& out) {
+              PairEvaluation<Dim>& out, const Workers& workers) {
   if (!out.near || !pair.filter.limited()) return;
   Laps laps;
   out.near = false;
-  for (std::size_t i = 0; i < pair.slave.points.size(); ++i) {
-    const PointResult<Dim>& point = out.points[i];
-    if (point.history.facet >= 0 || point.status != contact::Status::open) continue;
-    const ProjectedPoint<Dim> projected = project_point(pair, out, x, i, committed.points[i]);
+  std::vector<std::size_t> far;
+  for (std::size_t i = 0; i < pair.slave.points.size(); ++i)
+    if (out.points[i].history.facet < 0 && out.points[i].status == contact::Status::open)
+      far.push_back(i);
+  const auto place_of = [&](std::size_t i) {
+    return place_of_point(pair, out, x, i, committed.points[i]);
+  };
+  std::vector<Projection<Dim>> places;
+  if (workers.ranks) places = places_by_all(pair, std::span(far), workers, place_of);
+  for (std::size_t k = 0; k < far.size(); ++k) {
+    const std::size_t i = far[k];
+    const ProjectedPoint<Dim> projected =
+        point_at(pair, out, x, i, workers.ranks ? places[k] : place_of(i));
     if (projected.projection.feature == Feature::none) continue;
     const double acts_below = pair.offset + contact::onset_gap(pair.normal);
     if (projected.projection.beyond_end || projected.kinematics.gap > acts_below)
@@ -419,9 +470,9 @@ template void prepare<3>(PairDefinition<3>&, Points<3>);
 template PairState<2> initial_state<2>(const PairDefinition<2>&, Points<2>);
 template PairState<3> initial_state<3>(const PairDefinition<3>&, Points<3>);
 template void look_far<2>(const PairDefinition<2>&, Points<2>, const PairState<2>&,
-                          PairEvaluation<2>&);
+                          PairEvaluation<2>&, const Workers&);
 template void look_far<3>(const PairDefinition<3>&, Points<3>, const PairState<3>&,
-                          PairEvaluation<3>&);
+                          PairEvaluation<3>&, const Workers&);
 template ActiveSet<2> committed_active_set<2>(const PairDefinition<2>&, const PairState<2>&,
                                               Points<2>, Prediction);
 template ActiveSet<3> committed_active_set<3>(const PairDefinition<3>&, const PairState<3>&,
@@ -430,10 +481,10 @@ template ActiveSet<2> evaluated_active_set<2>(const PairEvaluation<2>&, const Ac
 template ActiveSet<3> evaluated_active_set<3>(const PairEvaluation<3>&, const ActiveSet<3>&);
 template void evaluate<2>(const PairDefinition<2>&, Points<2>, const PairState<2>&, bool,
                           PairEvaluation<2>&, const ActiveSet<2>&, const PairMultipliers<2>*,
-                          const BlockTaker<2>&, int);
+                          const BlockTaker<2>&, const Workers&);
 template void evaluate<3>(const PairDefinition<3>&, Points<3>, const PairState<3>&, bool,
                           PairEvaluation<3>&, const ActiveSet<3>&, const PairMultipliers<3>*,
-                          const BlockTaker<3>&, int);
+                          const BlockTaker<3>&, const Workers&);
 template PairMultipliers<2> initial_multipliers<2>(const PairDefinition<2>&, const PairState<2>&);
 template PairMultipliers<2> augmented<2>(const PairDefinition<2>&, const PairEvaluation<2>&,
                                          const PairMultipliers<2>&);

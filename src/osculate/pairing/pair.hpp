@@ -9,6 +9,7 @@
 #include "osculate/contact/multiplier.hpp"
 #include "osculate/contact/point_terms.hpp"
 #include "osculate/core/prediction.hpp"
+#include "osculate/core/ranks.hpp"
 #include "osculate/pairing/axes.hpp"
 #include "osculate/pairing/candidate_filter.hpp"
 #include "osculate/pairing/constraint.hpp"
@@ -181,7 +182,8 @@ struct ContactBlock {
   Eigen::VectorXd branch_force;  ///< of the linearised branch; equals `force` unless `branched`
   bool branched = false;
   Eigen::MatrixXd tangent;  ///< empty: nothing but `path`
-  bool elsewhere = false;   ///< the tangent is in that of a former block with the same nodes
+  /// The tangent is in that of a former block with the same nodes, or another process has it.
+  bool elsewhere = false;
   /// Its rows and columns of the master's nodes are zero: what belongs there is in the block of the
   /// master's facet.
   bool without_master = false;
@@ -305,11 +307,21 @@ template <int Dim>
 [[nodiscard]] ActiveSet<Dim> evaluated_active_set(const PairEvaluation<Dim>& evaluation,
                                                   const ActiveSet<Dim>& before = {});
 
+/// Who evaluates a pair: threads, and several processes that have the same state. A process looks
+/// for the places of some of the points, and has the tangents of those that it sees; all else, with
+/// the same bits, all of them have.
+struct Workers {
+  int threads = 1;
+  const core::Ranks* ranks = nullptr;  ///< null: this process is alone
+  std::span<const char> mine{};        ///< by node: places of its points are looked for here
+  std::span<const char> seen{};  ///< by node: tangents of its blocks are wanted; empty: all of them
+};
+
 /// One evaluation of all points of the pair: search, projection, kinematics, tractions from the
 /// committed history, residual and (if asked) tangent. `multipliers` are needed where the pair's
 /// enforcement is not by penalty alone. `take` gets all blocks, those of some facets of the slave
 /// as soon as they are complete: their tangents are gone afterwards. Results have the same bits by
-/// any number of threads.
+/// any number of threads and processes.
 ///
 /// Source     KS2D Tables 1 and 2 with docs/errata.md; KSVD section 3
 /// Tested by  tests/unit/pairing/test_pair_tangent.cpp, test_pair_history.cpp, and their 3D like
@@ -317,13 +329,13 @@ template <int Dim>
 void evaluate(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Dim>& committed,
               bool with_tangent, PairEvaluation<Dim>& out, const ActiveSet<Dim>& active_set = {},
               const PairMultipliers<Dim>* multipliers = nullptr, const BlockTaker<Dim>& take = {},
-              int threads = 1);
+              const Workers& workers = {});
 
 /// The places that a `near` evaluation at `x` has left out: what points without a place remember
 /// and report, before `commit`.
 template <int Dim>
 void look_far(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Dim>& committed,
-              PairEvaluation<Dim>& out);
+              PairEvaluation<Dim>& out, const Workers& workers = {});
 
 /// True if any point is in contact.
 template <int Dim>

@@ -58,14 +58,14 @@ template <int Dim>
   return with_tangent ? (full ? 3 : 1) : (full ? 1 : 0);
 }
 
-/// Closest point of slave point `i` on the master and the kinematics there; no place where none is
-/// found. `work` is refreshed at `x`. `order` as in `projected_point`.
+/// Where slave point `i` is on the master; no place where none is found. `work` is refreshed at
+/// `x`.
 template <int Dim>
-[[nodiscard]] ProjectedPoint<Dim> project_point(const PairDefinition<Dim>& pair,
-                                                const PairEvaluation<Dim>& work, Points<Dim> x,
-                                                std::size_t i,
-                                                const contact::PointHistory<Dim>& history,
-                                                Index kept = -1, int order = 3) {
+[[nodiscard]] Projection<Dim> place_of_point(const PairDefinition<Dim>& pair,
+                                             const PairEvaluation<Dim>& work, Points<Dim> x,
+                                             std::size_t i,
+                                             const contact::PointHistory<Dim>& history,
+                                             Index kept = -1) {
   if (work.apart) return {};
   ProjectionQuery<Dim> query;
   query.point = position<Dim>(pair.slave.points[i], x);
@@ -96,10 +96,31 @@ template <int Dim>
   }
   const Projection<Dim> p = closest(pair.master, work.tree, x, query);
   if (p.feature == projection::Feature::none || pair.filter.hidden.has(i, p.facet)) return {};
+  return p;
+}
+
+/// The kinematics of slave point `i` at its place, if it has one. `order` as in `projected_point`.
+template <int Dim>
+[[nodiscard]] ProjectedPoint<Dim> point_at(const PairDefinition<Dim>& pair,
+                                           const PairEvaluation<Dim>& work, Points<Dim> x,
+                                           std::size_t i, const Projection<Dim>& place,
+                                           int order = 3) {
+  if (place.feature == projection::Feature::none) return {};
+  const Vec<Dim> point = position<Dim>(pair.slave.points[i], x);
   if constexpr (Dim == 3)
-    return projected_point(pair.master, p, query.point, x, work.patches, order);
+    return projected_point(pair.master, place, point, x, work.patches, order);
   else
-    return projected_point(pair.master, p, query.point, x);
+    return projected_point(pair.master, place, point, x);
+}
+
+/// Closest point of slave point `i` on the master and the kinematics there.
+template <int Dim>
+[[nodiscard]] ProjectedPoint<Dim> project_point(const PairDefinition<Dim>& pair,
+                                                const PairEvaluation<Dim>& work, Points<Dim> x,
+                                                std::size_t i,
+                                                const contact::PointHistory<Dim>& history,
+                                                Index kept = -1, int order = 3) {
+  return point_at(pair, work, x, i, place_of_point(pair, work, x, i, history, kept), order);
 }
 
 /// A point that is placed on a surface: a slave point on the master, or the origin on the surface

@@ -393,12 +393,11 @@ void expect_the_same_blocks(const Choice& choice, int threads) {
     c.place(along<Dim>(way));
     pairing::evaluate<Dim>(c.pair, c.x, c.state, true, c.now);
     pairing::PairEvaluation<Dim> taken;
-    pairing::evaluate<Dim>(
-        c.pair, c.x, c.state, true, handing, {}, nullptr,
-        [&](std::span<const pairing::ContactBlock<Dim>> blocks) {
-          taken.blocks.insert(taken.blocks.end(), blocks.begin(), blocks.end());
-        },
-        threads);
+    pairing::evaluate<Dim>(c.pair, c.x, c.state, true, handing, {}, nullptr,
+                           [&](std::span<const pairing::ContactBlock<Dim>> blocks) {
+                             taken.blocks.insert(taken.blocks.end(), blocks.begin(), blocks.end());
+                           },
+                           {.threads = threads});
     const std::size_t with_tangent = expect_same_bits<Dim>(taken.blocks, c.now.blocks);
     if (choice.mortar) continue;  // their terms are of other nodes
     EXPECT_GT(with_tangent, 100u);
@@ -409,7 +408,8 @@ void expect_the_same_blocks(const Choice& choice, int threads) {
       EXPECT_LT(handing.spare.size(), 26u);  // few tangents
     }
     pairing::PairEvaluation<Dim> staying;
-    pairing::evaluate<Dim>(c.pair, c.x, c.state, true, staying, {}, nullptr, {}, threads);
+    pairing::evaluate<Dim>(c.pair, c.x, c.state, true, staying, {}, nullptr, {},
+                           {.threads = threads});
     expect_same_bits<Dim>(staying.blocks, c.now.blocks);
   }
 }

@@ -49,6 +49,8 @@ void ContactTerm<Dim>::add(const State& committed, const Trial& trial, double fr
                            const ConstraintTerm<Dim>& constraints, Assembly<Dim>& to,
                            solve::Evaluation& out) {
   std::vector<pairing::PairEvaluation<Dim>>& contact = to.into.contact;
+  pairing::Workers here = workers;
+  if (out.led) here.seen = {};  // what is prescribed moves forces of all nodes by the tangent
   out.counts = {};
   out.counts.signature = 14695981039346656037ull;
   for (std::size_t p = 0; p < model.pairs.size(); ++p) {
@@ -72,7 +74,7 @@ void ContactTerm<Dim>::add(const State& committed, const Trial& trial, double fr
             if (block.active()) add_block(block, to);
           adding += of_blocks.seconds();
         },
-        threads);
+        here);
     seconds += watch.seconds() - adding;
     constraints.add(p, to);
     for (const pairing::PointResult<Dim>& point : contact[p].points) {
@@ -87,7 +89,7 @@ void ContactTerm<Dim>::look_far(const State& trial, std::span<const Vec<Dim>> x,
                                 Evaluated<Dim>& last) {
   const Stopwatch watch;
   for (std::size_t p = 0; p < last.contact.size(); ++p)
-    pairing::look_far<Dim>(model.pairs[p].definition, x, trial.pairs[p], last.contact[p]);
+    pairing::look_far<Dim>(model.pairs[p].definition, x, trial.pairs[p], last.contact[p], workers);
   seconds += watch.seconds();
 }
 

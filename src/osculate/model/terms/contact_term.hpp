@@ -21,7 +21,7 @@ struct ContactTerm {
   Prediction friction = Prediction::as_before;
   bool beginning = true;  ///< the first step: initial overlaps are let in
   double seconds = 0;
-  int threads = 1;
+  pairing::Workers workers{};
 
   /// Share of the initial overlaps of a pair that does not count at a fraction of the step.
   [[nodiscard]] double relief(const pairing::PairDefinition<Dim>& pair, double fraction) const {

@@ -1,0 +1,60 @@
+#pragma once
+// Places of points, each looked for by one process and told to all; for sources of this layer.
+#include <array>
+#include <span>
+#include <vector>
+
+#include "osculate/core/pieces.hpp"
+#include "osculate/pairing/pair.hpp"
+
+namespace osculate::pairing {
+
+/// A place as numbers, none of which another process adds to.
+template <int Dim>
+inline constexpr std::size_t numbers_of_place = 2 * Dim + 4;
+
+template <int Dim>
+void to_numbers(const Projection<Dim>& p, double* to) {
+  *to++ = static_cast<double>(p.feature);
+  *to++ = p.facet;
+  *to++ = p.local;
+  *to++ = p.beyond_end ? 1 : 0;
+  *to++ = p.distance;
+  for (const double xi : p.xi) *to++ = xi;
+  for (const double n : p.outward) *to++ = n;
+}
+template <int Dim>
+[[nodiscard]] Projection<Dim> place_of_numbers(const double* from) {
+  Projection<Dim> p;
+  p.feature = static_cast<projection::Feature>(*from++);
+  p.facet = static_cast<Index>(*from++);
+  p.local = static_cast<int>(*from++);
+  p.beyond_end = *from++ != 0;
+  p.distance = *from++;
+  for (double& xi : p.xi) xi = *from++;
+  for (double& n : p.outward) n = *from++;
+  return p;
+}
+
+/// find(i) for the points `of` a pair, by the process that has the first node of each.
+template <int Dim, class Find>
+[[nodiscard]] std::vector<Projection<Dim>> places_by_all(const PairDefinition<Dim>& pair,
+                                                         std::span<const std::size_t> of,
+                                                         const Workers& workers, const Find& find) {
+  constexpr std::size_t size = numbers_of_place<Dim>, piece = 16;
+  std::vector<double> numbers(size * of.size(), core::Ranks::nothing);
+  std::vector<std::size_t> own;
+  for (std::size_t k = 0; k < of.size(); ++k)
+    if (workers.mine[static_cast<std::size_t>(pair.slave.points[of[k]].nodes[0])] != 0)
+      own.push_back(k);
+  core::for_pieces(own.size(), piece, workers.threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k)
+      to_numbers<Dim>(find(of[own[k]]), &numbers[size * own[k]]);
+  });
+  workers.ranks->sum(numbers);
+  std::vector<Projection<Dim>> places(of.size());
+  for (std::size_t k = 0; k < of.size(); ++k) places[k] = place_of_numbers<Dim>(&numbers[size * k]);
+  return places;
+}
+
+}  // namespace osculate::pairing
