@@ -209,9 +209,10 @@ void evaluate(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Di
     const contact::PointHistory<Dim>& history =
         recalled ? far.recalled_[back++] : committed.points[i];
     PointContext<Dim> context = context_of<Dim>(pair, active_set, nullptr, i);
-    const Projection<Dim> place =
-        place_of_point(pair, out, x, i, history, kept_facet<Dim>(pair.master, context.active, x));
-    evaluate_slave_point(pair, x, history, active_set, place, context, false, i, out, laps,
+    ProjectedPoint<Dim> projected =
+        project_point(pair, out, x, i, history, kept_facet<Dim>(pair.master, context.active, x),
+                      derivatives_needed(pair, false));
+    evaluate_slave_point(pair, x, history, active_set, projected, context, false, i, out, laps,
                          out.seconds);
     if (!all) far.leave(pair, out, i, out.points[i].history);
   }

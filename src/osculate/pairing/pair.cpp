@@ -238,7 +238,10 @@ void evaluate(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Di
     if (!committed.overlap.empty()) context.relieved = active_set.relief * committed.overlap[i];
     const Projection<Dim> place = workers.ranks ? places[i] : place_of(i);
     const bool seen = is_seen(pair, i, place, workers);
-    evaluate_slave_point(pair, x, committed.points[i], active_set, place, context,
+    // Forces have the same bits with a tangent and without, but not by other derivatives.
+    ProjectedPoint<Dim> projected =
+        point_at(pair, out, x, i, place, derivatives_needed(pair, with_tangent));
+    evaluate_slave_point(pair, x, committed.points[i], active_set, projected, context,
                          with_tangent && seen, i, out, of_point, seconds);
     if (!seen) out.blocks[i].elsewhere = true;
   });

@@ -178,16 +178,14 @@ void evaluate_projected(const PairDefinition<Dim>& pair, Points<Dim> x,
                       with_tangent, i, out);
 }
 
-/// One point at its place: what it reports and remembers, its block. `context` without the way of
-/// the gap.
+/// One point where it was placed: what it reports and remembers, its block. `context` without the
+/// way of the gap.
 template <int Dim>
 void evaluate_slave_point(const PairDefinition<Dim>& pair, Points<Dim> x,
                           const contact::PointHistory<Dim>& history,
-                          const ActiveSet<Dim>& active_set, const Projection<Dim>& place,
+                          const ActiveSet<Dim>& active_set, ProjectedPoint<Dim>& projected,
                           PointContext<Dim>& context, bool with_tangent, std::size_t i,
                           PairEvaluation<Dim>& out, Laps& laps, PairSeconds& seconds) {
-  ProjectedPoint<Dim> projected =
-      point_at(pair, out, x, i, place, derivatives_needed(pair, with_tangent));
   context.way =
       way_of_gap(pair, active_set, history, projected.projection.facet, projected.kinematics.gap);
   laps.add_to(seconds.projection);
