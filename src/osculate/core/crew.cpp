@@ -38,6 +38,7 @@ struct Crew::Impl {
   std::vector<std::thread> others;
 
   void start(int count);
+  void share();
   void serve();
   void open_gate();
   void wait_for_others(Clock::time_point begun, std::size_t own);
@@ -98,10 +99,11 @@ void Crew::Impl::serve() {
 
 /// `begun`: the loop, of which this thread has done `own` pieces. Where others have no core of
 /// their own, who waits for them loses more than they do for it: they are let alone then, many
-/// times as long as what was lost. A delay now and then, of a core that does something else for
-/// once, is made up for by what they did before.
+/// times as long as what was lost, but no longer than a second (the program may have been stopped).
+/// A delay now and then, of a core that does something else for once, is made up for by what they
+/// did before.
 void Crew::Impl::wait_for_others(Clock::time_point begun, std::size_t own) {
-  constexpr double reserve = 5e-3;
+  constexpr double reserve = 5e-3, longest = 1;
   const auto seconds = [](Clock::duration d) { return std::chrono::duration<double>(d).count(); };
   const auto waits = Clock::now();
   auto now = waits;
@@ -115,9 +117,21 @@ void Crew::Impl::wait_for_others(Clock::time_point begun, std::size_t own) {
   if (gained == reserve) patience = least_patience;
   if (gained >= 0) return;
   alone_until = now + std::chrono::duration_cast<Clock::duration>(
-                          std::chrono::duration<double>(-patience * gained));
+                          std::chrono::duration<double>(std::min(longest, -patience * gained)));
   patience = std::min(most_patience, 2 * patience);
   gained = 0;
+}
+
+void Crew::Impl::share() {
+  const auto begun = Clock::now();
+  if (begun < alone_until) {
+    take_pieces();
+    return;
+  }
+  open_gate();
+  const std::size_t own = take_pieces();
+  ++gate;
+  wait_for_others(begun, own);
 }
 
 /// With fewer where the system gives no more.
@@ -144,16 +158,11 @@ void Crew::share(std::size_t pieces, Work work) {
   s.work = work;
   s.pieces = pieces;
   s.next = 0;
-  const bool alone = threads_ == 1 || pieces < 2;
-  const auto begun = alone ? Impl::Clock::time_point{} : Impl::Clock::now();
-  if (alone || begun < s.alone_until) {
+  if (threads_ == 1 || pieces < 2) {
     s.take_pieces();
   } else {
     s.start(threads_ - 1);
-    s.open_gate();
-    const std::size_t own = s.take_pieces();
-    ++s.gate;
-    s.wait_for_others(begun, own);
+    s.share();
   }
   if (s.failure) std::rethrow_exception(std::exchange(s.failure, {}));
 }

@@ -228,7 +228,8 @@ void evaluate(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Di
                           kept_facet<Dim>(pair.master, context.active, x));
   };
   std::vector<Projection<Dim>> places;
-  if (workers.ranks) {
+  const bool by_all = workers.ranks && !out.apart;  // else no point has a place
+  if (by_all) {
     places = places_by_all(pair, all_points(pair), workers, place_of);
     laps.add_to(out.seconds.projection);
   }
@@ -236,7 +237,7 @@ void evaluate(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Di
   loop.run([&](std::size_t i, Laps& of_point, PairSeconds& seconds) {
     PointContext<Dim> context = context_of(pair, active_set, multipliers, i);
     if (!committed.overlap.empty()) context.relieved = active_set.relief * committed.overlap[i];
-    const Projection<Dim> place = workers.ranks ? places[i] : place_of(i);
+    const Projection<Dim> place = by_all ? places[i] : place_of(i);
     const bool seen = is_seen(pair, i, place, workers);
     // Forces have the same bits with a tangent and without, but not by other derivatives.
     ProjectedPoint<Dim> projected =

@@ -281,6 +281,45 @@ TEST_P(Halos, TheEngineSolvesAsThatOfOneProcess) {
     });
 }
 
+/// An entry between two processes that neither had comes and goes again; the others' rows stay.
+TEST_P(Halos, TheEngineTakesEntriesThatComeAndGo) {
+  ElasticBlock block(8, 8, 8);
+  Places places = block.places();
+  std::fill(places.exact.begin(), places.exact.end(), 0);
+  const Eigen::VectorXd b = some(block.unknowns());
+  const CompressedRows plain = compressed(block.matrix(), Symmetry::unsymmetric);
+  Index from = 0, to = block.unknowns() - 1;
+  while (block.held(from)) ++from;
+  while (block.held(to)) --to;
+  const double stiffness = plain.diagonal().maxCoeff();
+  CompressedRows spring(plain.rows(), plain.cols());
+  for (const Index i : {from, to})
+    for (const Index j : {from, to}) spring.insert(i, j) = i == j ? stiffness : -stiffness;
+  const CompressedRows joined = plain + spring;
+  on_all([&](const SparseMatrix& some_rows) {
+    const std::vector<int> owner = owners(block, some_rows.ranks->count(), std::get<1>(GetParam()));
+    const std::unique_ptr<Engine> engine = make_multigrid_engine({});
+    const auto expect_solved = [&](const CompressedRows& all) {
+      Eigen::VectorXd x = b;
+      EXPECT_TRUE(engine->solve({}, x).solved);
+      EXPECT_LT((all * x - b).norm(), 2e-8 * b.norm());
+      EXPECT_EQ(engine->diagonal(), Eigen::VectorXd(all.diagonal()));
+      EXPECT_LT((multiply(engine->matrix(), b) - all * b).norm(), 1e-13 * (all * b).norm());
+    };
+    const auto rows = [&](const CompressedRows& all) {
+      return rows_of(stored(all), owner, *some_rows.ranks);
+    };
+    EXPECT_TRUE(engine->build(rows(plain), Symmetry::unsymmetric, places));
+    expect_solved(plain);
+    for (const CompressedRows* const next : {&joined, &joined, &plain, &joined}) {
+      EXPECT_TRUE(engine->refresh(rows(*next), Symmetry::unsymmetric, places));
+      expect_solved(*next);
+    }
+    EXPECT_TRUE(engine->build_again(places));
+    expect_solved(joined);
+  });
+}
+
 INSTANTIATE_TEST_SUITE_P(Processes, Halos,
                          ::testing::Combine(::testing::Values(1, 2, 3, 8),
                                             ::testing::Values(Deal::layers, Deal::at_random,
