@@ -8,9 +8,7 @@
 #include <filesystem>
 #include <new>
 
-#include "osculate/core/error.hpp"
 #include "osculate/core/memory.hpp"
-#include "osculate/io/atomic_file.hpp"
 
 namespace osculate::app {
 namespace {
@@ -29,6 +27,15 @@ std::string program_folder() {
   std::error_code error;
   const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
   return error ? std::string(".") : self.parent_path().string();
+}
+
+int report(const core::InputError& error) {
+  print(stderr, "error: {}\n", error.what());
+  return bad_input;
+}
+int report(const io::WriteError& error) {
+  print(stderr, "stopped: {}; what was written before is kept\n", error.what());
+  return analysis_stopped;
 }
 
 namespace {
@@ -52,11 +59,9 @@ int code_of(int (*program)(int argc, char** argv), int argc, char** argv) {
   try {
     return program(argc, argv);
   } catch (const core::InputError& error) {
-    print(stderr, "error: {}\n", error.what());
-    return bad_input;
+    return report(error);
   } catch (const io::WriteError& error) {
-    print(stderr, "stopped: {}; what was written before is kept\n", error.what());
-    return analysis_stopped;
+    return report(error);
   } catch (const std::bad_alloc& error) {
     print(stderr, "stopped: {}; what was written before is kept\n",
           core::out_of_memory_text(error));

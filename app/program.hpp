@@ -5,6 +5,9 @@
 #include <string>
 #include <utility>
 
+#include "osculate/core/error.hpp"
+#include "osculate/io/atomic_file.hpp"
+
 namespace osculate::app {
 
 /// Exit codes of the programs (a contract: scripts depend on them).
@@ -19,6 +22,10 @@ void print(std::FILE* to, fmt::format_string<T...> text, T&&... values) {
   const std::string all = fmt::format(text, std::forward<T>(values)...);
   std::fwrite(all.data(), 1, all.size(), to);
 }
+
+/// Says what a program has thrown for bad input or files. Returns the exit code.
+[[nodiscard]] int report(const core::InputError& error);
+[[nodiscard]] int report(const io::WriteError& error);
 
 /// Runs a program: what it throws becomes one message and an exit code; so does what could not be
 /// printed (pipe closed, disk full), where there is no worse to tell.

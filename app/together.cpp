@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <initializer_list>
@@ -12,7 +13,6 @@
 #include "osculate/api/agree.hpp"
 #include "osculate/core/error.hpp"
 #include "osculate/core/memory.hpp"
-#include "osculate/io/atomic_file.hpp"
 #include "program.hpp"
 
 namespace osculate::app {
@@ -96,16 +96,18 @@ int join(const std::function<int(const model::Together&)>& part) {
   if (const char* const text = std::getenv("OSCULATE_SHARE_FROM")) fewest = std::atof(text);
   const core::Ranks& ranks = *library.ranks;
   ranks.spread({&fewest, 1}, 0);  // other machines need not have it in their environment
-  try {
-    const int code = part({&ranks, library.solvers});
+  // All is said before they part: mpirun kills the others when the first one has ended badly.
+  const auto part_with = [&](int code) {
+    std::fflush(stdout);
     ranks.finish();
     return code;
-  } catch (const core::InputError&) {  // of all processes
-    ranks.finish();
-    throw;
-  } catch (const io::WriteError&) {
-    ranks.finish();
-    throw;
+  };
+  try {
+    return part_with(part({&ranks, library.solvers}));
+  } catch (const core::InputError& error) {  // of all processes
+    return part_with(report(error));
+  } catch (const io::WriteError& error) {
+    return part_with(report(error));
   } catch (const api::OneAlone& error) {
     end_all(ranks, error.what(), analysis_stopped);
   } catch (const std::bad_alloc& error) {

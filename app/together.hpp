@@ -20,9 +20,10 @@ void be_alone(const std::string& command);
 /// Does a part of the program that all these processes do: they join before it and part behind it.
 /// Where one of them cannot go on it says why and ends all.
 ///
-/// Returns    what `part` does
+/// Returns    what `part` does; of several where it throws for bad input or files, the exit code of
+///            that, which has been said
 /// Errors     throws core::InputError where there are several, and this build knows nothing of MPI;
-///            what `part` throws for bad input or files, on all of them
+///            of one process what `part` throws
 [[nodiscard]] int join(const std::function<int(const model::Together&)>& part);
 
 }  // namespace osculate::app
