@@ -56,9 +56,9 @@ TEST(LongVectors, NormsOfSmallAndOfLargeNumbers) {
 
 // A matrix of a chain, diagonal blocks as what is near to it: long enough for several runs.
 TEST(LongVectors, SolutionsHaveTheSameBitsByAnyNumberOfThreads) {
-  const Eigen::Index n = 40'000;
+  constexpr Eigen::Index n = 40'000;
   const Eigen::VectorXd b = noise(n);
-  const auto multiply = [n](const Eigen::VectorXd& x, Eigen::VectorXd& y) {
+  const auto multiply = [](const Eigen::VectorXd& x, Eigen::VectorXd& y) {
     y = 4 * x;
     y.head(n - 1) -= x.tail(n - 1);
     y.tail(n - 1) -= x.head(n - 1);
