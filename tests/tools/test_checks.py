@@ -205,8 +205,14 @@ class Batches(unittest.TestCase):
     def declared(self, text):
         return batches.Names(text).own
 
+    def parts(self, names, size=8):
+        """The numbers, of which only counts who has the same: counted as they come first."""
+        numbers = batches.batches(size, names)
+        first = list(dict.fromkeys(numbers))
+        return [first.index(number) for number in numbers]
+
     def numbers(self, *texts, size=8):
-        return batches.batches(size, [batches.Names(text) for text in texts])
+        return self.parts([batches.Names(text) for text in texts], size)
 
     def test_names_at_the_first_column(self):
         text = ('#include "a.hpp"\nnamespace a {\nusing b::C;\nconstexpr double p = 1, q = 2;\n'
@@ -237,7 +243,11 @@ class Batches(unittest.TestCase):
         header = batches.Names("namespace a {\nstruct Case {\n};\n}  // namespace a\n")
         user, later = (batches.Names(f"void {name}() {{\n  Case c;\n}}\n", [header]) for name in "gh")
         other = batches.Names("namespace {\nstruct Case {\n};\n}  // namespace\n")
-        self.assertEqual(batches.batches(8, [user, other, later]), [0, 1, 0])
+        self.assertEqual(self.parts([user, other, later]), [0, 1, 0])
+
+    def test_who_clashes_with_most_chooses_first(self):
+        # In the order given the last one would clash with both batches that there are.
+        self.assertEqual(self.numbers("int a;\n", "int c;\n", "int a;\nint b;\n", "int b;\nint c;\n"), [0, 1, 1, 0])
 
     def test_classes_are_instantiated_once_in_a_batch(self):
         self.assertEqual(self.numbers("template struct S<2>::T;\n", "template class S<3>;\n", "template class U<3>;\n"),

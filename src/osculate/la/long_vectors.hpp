@@ -9,7 +9,8 @@
 namespace osculate::la {
 
 // Work on long vectors by several threads (null: by this one alone), in pieces whose length depends
-// on nothing, so that the bits of sums do not, either. Tested by tests/unit/la/test_long_vectors.cpp.
+// on nothing, so that the bits of sums do not, either. Tested by
+// tests/unit/la/test_long_vectors.cpp.
 
 inline constexpr Eigen::Index vector_piece = 4096;
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "osculate/core/error.hpp"
@@ -174,32 +173,6 @@ class PointLoop {
   int threads_ = 1;
   std::size_t begin_ = 0;
 };
-
-}  // namespace
-
-namespace {
-
-template <int Dim>
-std::vector<std::size_t> all_points(const PairDefinition<Dim>& pair) {
-  std::vector<std::size_t> all(pair.slave.points.size());
-  std::iota(all.begin(), all.end(), std::size_t{0});
-  return all;
-}
-
-/// Whether this process wants the tangent of a point at its place. Rows of multipliers may be
-/// anybody's.
-template <int Dim>
-bool is_seen(const PairDefinition<Dim>& pair, std::size_t i, const Projection<Dim>& place,
-             const Workers& workers) {
-  if (workers.seen.empty() || by_multipliers(pair) || place.facet < 0) return true;
-  const auto seen = [&](const Index node) {
-    return workers.seen[static_cast<std::size_t>(node)] != 0;
-  };
-  const SlavePoint<Dim>& slave = pair.slave.points[i];
-  const auto& facet = pair.master.facets[static_cast<std::size_t>(place.facet)];
-  return std::any_of(slave.nodes.begin(), slave.nodes.begin() + slave.count, seen) ||
-         std::any_of(facet.nodes.begin(), facet.nodes.begin() + facet.count, seen);
-}
 
 }  // namespace
 

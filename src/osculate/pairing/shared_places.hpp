@@ -1,6 +1,7 @@
 #pragma once
 // Places of points, each looked for by one process and told to all; for sources of this layer.
-#include <array>
+#include <algorithm>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -55,6 +56,28 @@ template <int Dim, class Find>
   std::vector<Projection<Dim>> places(of.size());
   for (std::size_t k = 0; k < of.size(); ++k) places[k] = place_of_numbers<Dim>(&numbers[size * k]);
   return places;
+}
+
+template <int Dim>
+std::vector<std::size_t> all_points(const PairDefinition<Dim>& pair) {
+  std::vector<std::size_t> all(pair.slave.points.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return all;
+}
+
+/// Whether this process wants the tangent of a point at its place. Rows of multipliers may be
+/// anybody's.
+template <int Dim>
+bool is_seen(const PairDefinition<Dim>& pair, std::size_t i, const Projection<Dim>& place,
+             const Workers& workers) {
+  if (workers.seen.empty() || by_multipliers(pair) || place.facet < 0) return true;
+  const auto seen = [&](const Index node) {
+    return workers.seen[static_cast<std::size_t>(node)] != 0;
+  };
+  const SlavePoint<Dim>& slave = pair.slave.points[i];
+  const auto& facet = pair.master.facets[static_cast<std::size_t>(place.facet)];
+  return std::any_of(slave.nodes.begin(), slave.nodes.begin() + slave.count, seen) ||
+         std::any_of(facet.nodes.begin(), facet.nodes.begin() + facet.count, seen);
 }
 
 }  // namespace osculate::pairing
