@@ -52,6 +52,9 @@ std::vector<double> exchanged(const core::Ranks& ranks,
 
 Halo::Halo(const core::Ranks* ranks, std::vector<Index> first, std::vector<Index> others)
     : ranks_(ranks), first_(std::move(first)), others_(std::move(others)) {
+  const auto me = static_cast<std::size_t>(ranks_ ? ranks_->rank() : 0);
+  begin_ = first_[me];
+  end_ = first_[me + 1];
   if (!ranks_) return;
   auto next = others_.begin();
   for (std::size_t p = 0; p + 1 < first_.size(); ++p) {

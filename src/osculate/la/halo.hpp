@@ -22,17 +22,17 @@ class Halo {
  public:
   Halo() = default;
   /// Of one process alone.
-  explicit Halo(Index unknowns) : first_{0, unknowns} {}
+  explicit Halo(Index unknowns) : first_{0, unknowns}, end_(unknowns) {}
   /// Shapes     first: the number everywhere of the first unknown of each process, and how many
   ///            there are; others: numbers everywhere of unknowns of others, sorted, each once
   Halo(const core::Ranks* ranks, std::vector<Index> first, std::vector<Index> others);
 
   [[nodiscard]] const core::Ranks* ranks() const { return ranks_; }
-  [[nodiscard]] Index own() const { return end() - begin(); }
+  [[nodiscard]] Index own() const { return end_ - begin_; }
   [[nodiscard]] Index here() const { return own() + static_cast<Index>(others_.size()); }
   [[nodiscard]] Index everywhere() const { return first_.back(); }
-  [[nodiscard]] Index begin() const { return first_[me()]; }  ///< of the own ones, everywhere
-  [[nodiscard]] Index end() const { return first_[me() + 1]; }
+  [[nodiscard]] Index begin() const { return begin_; }  ///< of the own ones, everywhere
+  [[nodiscard]] Index end() const { return end_; }
   /// Of those of a process; behind the last one: how many there are.
   [[nodiscard]] Index begin_of(int process) const {
     return first_[static_cast<std::size_t>(process)];
@@ -55,12 +55,9 @@ class Halo {
   [[nodiscard]] bool all(bool holds) const { return ranks_ ? ranks_->all(holds) : holds; }
 
  private:
-  [[nodiscard]] std::size_t me() const {
-    return ranks_ ? static_cast<std::size_t>(ranks_->rank()) : 0;
-  }
-
   const core::Ranks* ranks_ = nullptr;
   std::vector<Index> first_{0, 0}, others_;
+  Index begin_ = 0, end_ = 0;
   std::vector<Index> asked_;    ///< own unknowns that others see, one process after the other
   std::vector<int> from_, to_;  ///< how many of others_ and asked_ are of each process
 };

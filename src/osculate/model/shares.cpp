@@ -1,6 +1,9 @@
 #include "osculate/model/shares.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
+#include <iterator>
 
 #include "osculate/mesh/partition.hpp"
 #include "osculate/model/bulk.hpp"
@@ -31,16 +34,43 @@ int owner_of(const BasicDofSpace<Dim>& dofs, const std::vector<int>& owner, Dof 
   return beyond < 0 ? owner[at(dof / Dim)] : beyond / body::motions<Dim> % count;
 }
 
+/// Nodes of a slave point and of the facet that it is near to; nodes of a rigid body
+/// would join all points that it touches.
+template <int Dim>
+void add_joints(const BasicModel<Dim>& model, const BasicContactPair<Dim>& contact,
+                const pairing::PairState<Dim>& state, std::vector<std::vector<Index>>& joints) {
+  const pairing::PairDefinition<Dim>& pair = contact.definition;
+  for (std::size_t i = 0; i < std::min(pair.slave.points.size(), state.points.size()); ++i) {
+    const contact::PointHistory<Dim>& h = state.points[i];
+    const double height = i < contact.heights.size() ? contact.heights[i] : contact.height;
+    const bool is_near = h.active || (height > 0 && std::abs(h.gap) < height);
+    if (h.facet < 0 || !is_near) continue;
+    const pairing::SlavePoint<Dim>& point = pair.slave.points[i];
+    const auto& facet = pair.master.facets[at(h.facet)];
+    std::vector<Index>& joint =
+        joints.emplace_back(point.nodes.begin(), point.nodes.begin() + point.count);
+    const auto follows_body = [&](Index node) {
+      return at(node) < model.body_of_node.size() && model.body_of_node[at(node)] >= 0;
+    };
+    std::copy_if(facet.nodes.begin(), facet.nodes.begin() + facet.count, std::back_inserter(joint),
+                 std::not_fn(follows_body));
+  }
+}
+
 }  // namespace
 
 template <int Dim>
-std::vector<int> node_owners(const BasicModel<Dim>& model, int parts) {
+std::vector<int> node_owners(const BasicModel<Dim>& model,
+                             std::span<const pairing::PairState<Dim>> contact, int parts) {
+  std::vector<std::vector<Index>> joints;
+  for (std::size_t p = 0; p < std::min(model.pairs.size(), contact.size()); ++p)
+    add_joints(model, model.pairs[p], contact[p], joints);
   std::vector<std::vector<Index>> cells;
   for_each_cell(model, [&](const auto&, const mesh::CellRef& cell, const CellMemory&) {
     const std::span<const Index> nodes = cell_nodes(model.mesh, cell).nodes;
     cells.emplace_back(nodes.begin(), nodes.end());
   });
-  return mesh::node_parts(cells, static_cast<Index>(model.reference.size()), parts);
+  return mesh::node_parts(cells, joints, static_cast<Index>(model.reference.size()), parts);
 }
 
 template <int Dim>
@@ -81,8 +111,8 @@ void exchange(const Shares& shares, const core::Ranks& ranks, Eigen::VectorXd& o
   ranks.sum({of_dofs.data(), Dim * shares.mine.size()});
 }
 
-template std::vector<int> node_owners(const Model&, int);
-template std::vector<int> node_owners(const Model3&, int);
+template std::vector<int> node_owners(const Model&, std::span<const pairing::PairState<2>>, int);
+template std::vector<int> node_owners(const Model3&, std::span<const pairing::PairState<3>>, int);
 template Shares shares_of(const Model&, const DofSpace&, Index, const std::vector<int>&, int, int);
 template Shares shares_of(const Model3&, const DofSpace3&, Index, const std::vector<int>&, int,
                           int);

@@ -1,4 +1,5 @@
 #pragma once
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,12 +25,16 @@ struct Shares {
   std::vector<std::size_t> own_cells;  ///< of these, those whose first node it owns
 };
 
-/// Who owns the nodes of the cells: parts of about as many nodes, with few cells between them.
+/// Who owns the nodes of the cells: parts of about as many nodes, and points that are near their
+/// master, with few cells and of these points between them.
 ///
+/// Input      contact: what points remember, by pair; empty: nothing is near anything
 /// Returns    one for each node, below `parts`; nodes without cells are dealt out in turn
 /// Errors     throws std::bad_alloc
 template <int Dim>
-[[nodiscard]] std::vector<int> node_owners(const BasicModel<Dim>& model, int parts);
+[[nodiscard]] std::vector<int> node_owners(const BasicModel<Dim>& model,
+                                           std::span<const pairing::PairState<Dim>> contact,
+                                           int parts);
 
 /// What process `rank` has to do.
 ///

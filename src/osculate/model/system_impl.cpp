@@ -77,18 +77,18 @@ BasicSystem<Dim>::Impl::Impl(const BasicModel<Dim>& m, int threads, const core::
 }
 
 template <int Dim>
-void BasicSystem<Dim>::Impl::share(bool on) {
+void BasicSystem<Dim>::Impl::share(bool on, std::span<const pairing::PairState<Dim>> contact_now) {
   if (!ranks || on == (bulk.ranks != nullptr)) return;
   bulk.ranks = on ? ranks : nullptr;
   pattern_reserved = false;
   builder.finish();
   const std::vector<la::MatrixPlace> grown = builder.grown();  // a checkpoint may know them
   if (on) {
-    std::vector<int> owner = node_owners(model, ranks->count());
+    std::vector<int> owner = node_owners<Dim>(model, contact_now, ranks->count());
     ranks->spread(owner, 0);
     bulk.shares = shares_of(model, dofs, constraints.count(), owner, ranks->rank(), ranks->count());
     builder = la::MatrixBuilder(constraints.end, ranks, bulk.shares.rows);
-    contact.workers = {bulk.threads, ranks, bulk.shares.mine, bulk.shares.seen};
+    contact.workers = {bulk.threads, ranks, bulk.shares.seen};
   } else {
     builder = la::MatrixBuilder(constraints.end);
     contact.workers = {};

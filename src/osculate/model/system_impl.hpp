@@ -53,7 +53,7 @@ struct BasicSystem<Dim>::Impl {
 
   Impl(const BasicModel<Dim>& m, int threads, const core::Ranks* of);
   /// Whether the processes share cells and rows from here on, or do all of it each.
-  void share(bool on);
+  void share(bool on, std::span<const pairing::PairState<Dim>> contact_now = {});
   /// The places of all cells in the matrix.
   void reserve_pattern();
 

@@ -203,7 +203,7 @@ void evaluate(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Di
   std::vector<Projection<Dim>> places;
   const bool by_all = workers.ranks && !out.apart;  // else no point has a place
   if (by_all) {
-    places = places_by_all(pair, all_points(pair), workers, place_of);
+    places = places_by_all<Dim>(all_points(pair), workers, place_of);
     laps.add_to(out.seconds.projection);
   }
   PointLoop<Dim> loop(pair, out, take, workers.threads);
@@ -242,7 +242,7 @@ void look_far(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Di
     return place_of_point(pair, out, x, i, committed.points[i]);
   };
   std::vector<Projection<Dim>> places;
-  if (workers.ranks) places = places_by_all(pair, std::span(far), workers, place_of);
+  if (workers.ranks) places = places_by_all<Dim>(far, workers, place_of);
   for (std::size_t k = 0; k < far.size(); ++k) {
     const std::size_t i = far[k];
     const ProjectedPoint<Dim> projected =

@@ -308,12 +308,11 @@ template <int Dim>
                                                   const ActiveSet<Dim>& before = {});
 
 /// Who evaluates a pair: threads, and several processes that have the same state. A process looks
-/// for the places of some of the points, and has the tangents of those that it sees; all else, with
-/// the same bits, all of them have.
+/// for the places of its part of the points, and has the tangents of those that it sees; all else,
+/// with the same bits, all of them have.
 struct Workers {
   int threads = 1;
   const core::Ranks* ranks = nullptr;  ///< null: this process is alone
-  std::span<const char> mine{};        ///< by node: places of its points are looked for here
   std::span<const char> seen{};  ///< by node: tangents of its blocks are wanted; empty: all of them
 };
 

@@ -37,20 +37,18 @@ template <int Dim>
   return p;
 }
 
-/// find(i) for the points `of` a pair, by the process that has the first node of each.
+/// find(i) for the points `of` a pair: each process has as many, neighbours together.
 template <int Dim, class Find>
-[[nodiscard]] std::vector<Projection<Dim>> places_by_all(const PairDefinition<Dim>& pair,
-                                                         std::span<const std::size_t> of,
+[[nodiscard]] std::vector<Projection<Dim>> places_by_all(std::span<const std::size_t> of,
                                                          const Workers& workers, const Find& find) {
   constexpr std::size_t size = numbers_of_place<Dim>, piece = 16;
   std::vector<double> numbers(size * of.size(), core::Ranks::nothing);
-  std::vector<std::size_t> own;
-  for (std::size_t k = 0; k < of.size(); ++k)
-    if (workers.mine[static_cast<std::size_t>(pair.slave.points[of[k]].nodes[0])] != 0)
-      own.push_back(k);
-  core::for_pieces(own.size(), piece, workers.threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k)
-      to_numbers<Dim>(find(of[own[k]]), &numbers[size * own[k]]);
+  const auto count = static_cast<std::size_t>(workers.ranks->count()),
+             rank = static_cast<std::size_t>(workers.ranks->rank());
+  const std::size_t first = of.size() * rank / count, last = of.size() * (rank + 1) / count;
+  core::for_pieces(last - first, piece, workers.threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = first + begin; k < first + end; ++k)
+      to_numbers<Dim>(find(of[k]), &numbers[size * k]);
   });
   workers.ranks->sum(numbers);
   std::vector<Projection<Dim>> places(of.size());

@@ -121,7 +121,7 @@ TYPED_TEST(SharesOf, CellsAreThoseThatRowsAndNodesSee) {
   for (const int count : {2, 3, 8})
     for (const bool random : {false, true}) {
       const std::vector<int> owner =
-          random ? at_random(m.reference.size(), count, 8) : node_owners(m, count);
+          random ? at_random(m.reference.size(), count, 8) : node_owners<Dim>(m, {}, count);
       const std::vector<Shares> all = shares_of_all(m, 4, owner, count);
       for (int rank = 0; rank < count; ++rank) {
         const Shares& s = all[static_cast<std::size_t>(rank)];
@@ -156,6 +156,47 @@ TYPED_TEST(SharesOf, OwnCellsAreEveryCellOnce) {
     ASSERT_EQ(seen.size(), cells);
     for (std::size_t cell = 0; cell < cells; ++cell) EXPECT_EQ(seen[cell], cell);
   }
+}
+
+/// What share of the points between two long blocks, one `gap` above the other, has a place on two
+/// processes. A tool above them joins nothing.
+template <int Dim>
+double torn(double gap, double height) {
+  BasicModel<Dim> m = block<Dim>({{0, 0, 0}, {8, 1, 1}, {16, 2, 2}}, rubber<Dim>(100));
+  add_block<Dim>(m, {{0, 0, 1 + gap}, {8, 1, 2 + gap}, {16, 2, 2}}, rubber<Dim>(100), "high");
+  const pairing::Boundary<Dim> slave = boundary_of(m, "high.bottom");
+  add_pair<Dim>(m, boundary_of(m, "block.top"), slave);
+  m.pairs.front().height = height;
+  const std::vector<Index>&low = nodes_of(m, "block.top"), &high = nodes_of(m, "high.bottom");
+  add_pair<Dim>(m, tools<Dim>().front().add(m), boundary_of(m, "high.top"));
+  m.pairs.back().height = 100;
+  const BasicState<Dim> start = BasicSystem<Dim>(m, 1).initial_state();
+  const std::vector<int> owner = node_owners<Dim>(m, start.pairs, 2);
+  const auto owned = [&](const std::vector<Index>& nodes) {
+    return std::ranges::count_if(nodes,
+                                 [&](Index n) { return owner[static_cast<std::size_t>(n)] == 0; });
+  };
+  if (height > gap) {  // both sides are shared
+    EXPECT_NEAR(static_cast<double>(owned(low)), 0.5 * low.size(), 0.15 * low.size());
+    EXPECT_NEAR(static_cast<double>(owned(high)), 0.5 * high.size(), 0.15 * high.size());
+  }
+  const pairing::PairDefinition<Dim>& pair = m.pairs.front().definition;
+  int apart = 0;
+  for (std::size_t i = 0; i < pair.slave.points.size(); ++i) {
+    const auto of = static_cast<std::size_t>(start.pairs[0].points[i].facet);
+    const auto& facet = pair.master.facets[of];
+    const int here = owner[static_cast<std::size_t>(pair.slave.points[i].nodes[0])];
+    apart += std::any_of(facet.nodes.begin(), facet.nodes.begin() + facet.count,
+                         [&](Index n) { return owner[static_cast<std::size_t>(n)] != here; });
+  }
+  return static_cast<double>(apart) / static_cast<double>(pair.slave.points.size());
+}
+
+TYPED_TEST(SharesOf, PartnersInContactAreTogether) {
+  constexpr int Dim = TypeParam::value;
+  EXPECT_LT(torn<Dim>(0, 0), 0.2);      // in contact
+  EXPECT_LT(torn<Dim>(0.2, 0.5), 0.2);  // nearer than a cell is high
+  EXPECT_GT(torn<Dim>(0.6, 0.5), 0.8);  // farther: a body each
 }
 
 /// What a system has after an evaluation.
