@@ -82,11 +82,14 @@ la::RanksLibrary begin(int processes) {
 
 void let_the_first_speak() { (void)voice(); }
 
-void be_alone(const std::string& command) {
-  if (processes_started() > 1)
-    throw core::InputError(
-        {}, fmt::format("'osculate {}' is for one process: start it without mpirun", command));
+bool is_alone(const std::string& command) {
+  if (processes_started() <= 1) return true;
+  (void)report(core::InputError(
+      {}, fmt::format("'osculate {}' is for one process: start it without mpirun", command)));
+  return false;
 }
+
+int alike(int code) { return voice() == STDERR_FILENO ? code : done; }
 
 int join(const std::function<int(const model::Together&)>& part) {
   const int processes = processes_started();

@@ -12,10 +12,12 @@ namespace osculate::app {
 /// To be called first: silences this process if it is one of the others.
 void let_the_first_speak();
 
-/// For commands of one process.
-///
-/// Errors     throws core::InputError where there are several
-void be_alone(const std::string& command);
+/// Whether this process is alone, as a command for one process wants it; says so where it is not.
+[[nodiscard]] bool is_alone(const std::string& command);
+
+/// The exit code where all of these processes have said the same of their command line: `code` of
+/// the first one. mpirun would end it, before it has spoken, for the code of another.
+[[nodiscard]] int alike(int code);
 
 /// Does a part of the program that all these processes do: they join before it and part behind it.
 /// Where one of them cannot go on it says why and ends all.

@@ -54,16 +54,16 @@ int run_program(int argc, char** argv) {
   std::ranges::reverse(arguments);
   if (const std::string wrong = unknown_command(app, arguments); !wrong.empty()) {
     std::fprintf(stderr, "error: %s\n", wrong.c_str());
-    return bad_input;
+    return alike(bad_input);
   }
   app.parse_complete_callback([&app] {
     const std::string name = app.get_subcommands().front()->get_name();
-    if (name != "run" && name != "verify") be_alone(name);
+    if (name != "run" && name != "verify" && !is_alone(name)) throw CLI::RuntimeError(bad_input);
   });
   try {
     app.parse(arguments);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? done : bad_input;
+    return app.exit(error) == 0 ? done : alike(bad_input);
   }
   return exit_code;
 }

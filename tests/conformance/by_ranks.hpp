@@ -30,7 +30,7 @@ class DealtAtRandom final : public ThreadRanks {
   /// Nothing else that is told has a number for each node (of models of more than ten).
   void spread(std::span<int> values, int from) const override {
     if (values.size() != nodes_) return ThreadRanks::spread(values, from);
-    std::mt19937 random(seed_);
+    std::mt19937 random(seed_ + static_cast<unsigned>(dealt_));
     for (int& owner : values) owner = static_cast<int>(random() % static_cast<unsigned>(count()));
     ++dealt_;
   }

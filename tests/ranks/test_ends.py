@@ -28,6 +28,18 @@ class Ends(RanksCase):
             self.expect_message(self.run_program(2, command, "model.yaml", code=2),
                                 f"'osculate {command}' is for one process: start it without mpirun")
 
+    def test_command_lines(self):
+        """The first one has said what is wrong, however late it is."""
+        late = ["bash", "-c", 'sleep 0.3; exec "$0" "$@"', PROGRAM]
+        for arguments, message in ((("run", "model.yaml", "--thread"), "--thread"), (("check", "model.yaml"), "'osculate check' is for one")):
+            command = together(2, *arguments)
+            command[command.index("-n") + 1] = "1"
+            done = subprocess.run([*command[:command.index(PROGRAM)], *late, *arguments, ":", "-n", "2", PROGRAM, *arguments],
+                                  cwd=self.folder.name, capture_output=True, text=True, env=environment(), timeout=self.limit,
+                                  stdin=subprocess.DEVNULL)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertEqual((done.stdout + done.stderr).count(message), 1, done.stdout + done.stderr)
+
     def test_without_the_library(self):
         self.write(MODEL)
         for folder, file in (("bin", PROGRAM), ("lib", os.path.join(os.path.dirname(PROGRAM), "../lib/libosculate_la.so"))):

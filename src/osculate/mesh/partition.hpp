@@ -5,12 +5,13 @@
 
 namespace osculate::mesh {
 
-/// Deals out nodes to parts of about as many of them, with few cells and joints between parts, and
-/// about as many joints in each (METIS, two weights a node).
+/// Deals out nodes to parts of about as many of them, with few cells and joints between parts; and
+/// about as many joints in each, where they have twenty nodes a part or more (METIS, two weights a
+/// node).
 ///
 /// Input      cells: the nodes of each
-///            joints: nodes that work of another kind has together (points of contact), which is
-///            counted at the first one; those without a cell do not matter
+///            joints: nodes that work of another kind has together (points of contact); those
+///            without a cell do not matter
 /// Returns    one for each node, below `parts`; nodes without cells in turn
 /// Contract   depends on the input alone
 /// Errors     throws std::bad_alloc

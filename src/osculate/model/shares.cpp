@@ -45,16 +45,54 @@ void add_joints(const BasicModel<Dim>& model, const BasicContactPair<Dim>& conta
     const double height = i < contact.heights.size() ? contact.heights[i] : contact.height;
     const bool is_near = h.active || (height > 0 && std::abs(h.gap) < height);
     if (h.facet < 0 || !is_near) continue;
-    const pairing::SlavePoint<Dim>& point = pair.slave.points[i];
-    const auto& facet = pair.master.facets[at(h.facet)];
-    std::vector<Index>& joint =
-        joints.emplace_back(point.nodes.begin(), point.nodes.begin() + point.count);
     const auto follows_body = [&](Index node) {
       return at(node) < model.body_of_node.size() && model.body_of_node[at(node)] >= 0;
     };
-    std::copy_if(facet.nodes.begin(), facet.nodes.begin() + facet.count, std::back_inserter(joint),
-                 std::not_fn(follows_body));
+    std::vector<Index> joint;
+    const auto add = [&](const auto& of) {
+      std::copy_if(of.nodes.begin(), of.nodes.begin() + of.count, std::back_inserter(joint),
+                   std::not_fn(follows_body));
+    };
+    add(pair.slave.points[i]);
+    add(pair.master.facets[at(h.facet)]);
+    if (!joint.empty()) joints.push_back(std::move(joint));
   }
+}
+
+template <int Dim>
+std::vector<std::vector<Index>> all_joints(const BasicModel<Dim>& model,
+                                           std::span<const pairing::PairState<Dim>> contact) {
+  std::vector<std::vector<Index>> joints;
+  for (std::size_t p = 0; p < std::min(model.pairs.size(), contact.size()); ++p)
+    add_joints(model, model.pairs[p], contact[p], joints);
+  return joints;
+}
+
+template <int Dim>
+std::vector<int> owners_of(const BasicModel<Dim>& model,
+                           const std::vector<std::vector<Index>>& joints, int parts) {
+  std::vector<std::vector<Index>> cells;
+  for_each_cell(model, [&](const auto&, const mesh::CellRef& cell, const CellMemory&) {
+    const std::span<const Index> nodes = cell_nodes(model.mesh, cell).nodes;
+    cells.emplace_back(nodes.begin(), nodes.end());
+  });
+  return mesh::node_parts(cells, joints, static_cast<Index>(model.reference.size()), parts);
+}
+
+/// Joints of the process that sees most of them.
+double most_seen(const std::vector<std::vector<Index>>& joints, const std::vector<int>& owner,
+                 int parts) {
+  std::vector<double> seen(static_cast<std::size_t>(parts), 0);
+  std::vector<int> by;
+  for (const std::vector<Index>& joint : joints) {
+    by.clear();
+    for (const Index node : joint) by.push_back(owner[at(node)]);
+    std::ranges::sort(by);
+    const auto end = std::unique(by.begin(), by.end());
+    for (auto process = by.begin(); process != end; ++process)
+      ++seen[static_cast<std::size_t>(*process)];
+  }
+  return std::ranges::max(seen);
 }
 
 }  // namespace
@@ -62,15 +100,25 @@ void add_joints(const BasicModel<Dim>& model, const BasicContactPair<Dim>& conta
 template <int Dim>
 std::vector<int> node_owners(const BasicModel<Dim>& model,
                              std::span<const pairing::PairState<Dim>> contact, int parts) {
-  std::vector<std::vector<Index>> joints;
-  for (std::size_t p = 0; p < std::min(model.pairs.size(), contact.size()); ++p)
-    add_joints(model, model.pairs[p], contact[p], joints);
-  std::vector<std::vector<Index>> cells;
-  for_each_cell(model, [&](const auto&, const mesh::CellRef& cell, const CellMemory&) {
-    const std::span<const Index> nodes = cell_nodes(model.mesh, cell).nodes;
-    cells.emplace_back(nodes.begin(), nodes.end());
-  });
-  return mesh::node_parts(cells, joints, static_cast<Index>(model.reference.size()), parts);
+  return owners_of(model, all_joints(model, contact), parts);
+}
+
+template <int Dim>
+std::optional<std::vector<int>> better_owners(const BasicModel<Dim>& model,
+                                              std::span<const pairing::PairState<Dim>> contact,
+                                              const std::vector<int>& owner, int parts,
+                                              double& unevenness) {
+  const std::vector<std::vector<Index>> joints = all_joints(model, contact);
+  if (20 * joints.size() < owner.size()) return std::nullopt;
+  const double even = static_cast<double>(joints.size()) / parts;
+  const double now = most_seen(joints, owner, parts) / even;
+  if (now < std::max(1.5, 1.25 * unevenness)) return std::nullopt;
+  std::vector<int> next = owners_of(model, joints, parts);
+  const double then = most_seen(joints, next, parts) / even;
+  const bool better = now >= 1.25 * then;
+  unevenness = better ? then : now;
+  if (!better) return std::nullopt;
+  return next;
 }
 
 template <int Dim>
@@ -113,6 +161,12 @@ void exchange(const Shares& shares, const core::Ranks& ranks, Eigen::VectorXd& o
 
 template std::vector<int> node_owners(const Model&, std::span<const pairing::PairState<2>>, int);
 template std::vector<int> node_owners(const Model3&, std::span<const pairing::PairState<3>>, int);
+template std::optional<std::vector<int>> better_owners(const Model&,
+                                                       std::span<const pairing::PairState<2>>,
+                                                       const std::vector<int>&, int, double&);
+template std::optional<std::vector<int>> better_owners(const Model3&,
+                                                       std::span<const pairing::PairState<3>>,
+                                                       const std::vector<int>&, int, double&);
 template Shares shares_of(const Model&, const DofSpace&, Index, const std::vector<int>&, int, int);
 template Shares shares_of(const Model3&, const DofSpace3&, Index, const std::vector<int>&, int,
                           int);

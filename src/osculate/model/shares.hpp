@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -35,6 +36,18 @@ template <int Dim>
 [[nodiscard]] std::vector<int> node_owners(const BasicModel<Dim>& model,
                                            std::span<const pairing::PairState<Dim>> contact,
                                            int parts);
+
+/// The same once more, where contact has moved to nodes of few processes, or is torn between them,
+/// since `owner` was found, and new owners are better: points near their master are a twentieth as
+/// many as nodes or more, and the process that sees most of them sees half as many again as it
+/// should, a quarter more than by the new owners. Nothing where the owners may stay.
+///
+/// Input      unevenness: how many times its even share that process saw at best when this was
+///            asked last, 1 at first; it is looked for anew from a quarter more on
+template <int Dim>
+[[nodiscard]] std::optional<std::vector<int>> better_owners(
+    const BasicModel<Dim>& model, std::span<const pairing::PairState<Dim>> contact,
+    const std::vector<int>& owner, int parts, double& unevenness);
 
 /// What process `rank` has to do.
 ///

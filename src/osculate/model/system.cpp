@@ -78,14 +78,17 @@ void BasicSystem<Dim>::begin_step(const Step& step, const State& committed) {
   if (!impl_->model.pair_changes.empty())  // buffers of ties are no good for points that part
     for (pairing::PairEvaluation<Dim>& contact : impl_->last.contact) contact = {};
   impl_->begin_drivers();
-  impl_->share(iterates(step), committed.pairs);
+  if (iterates(step))
+    impl_->share(committed.pairs);
+  else
+    impl_->share_no_more();
   // Explicit time integration says itself which cells are to keep a matrix.
   if (!step.dynamics || !step.dynamics->explicit_steps) impl_->bulk.keep_linear();
 }
 
 template <int Dim>
 void BasicSystem<Dim>::share_no_more() {
-  impl_->share(false);
+  impl_->share_no_more();
 }
 
 template <int Dim>

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
+#include <utility>
 
+#include "osculate/la/halo.hpp"
 #include "osculate/model/body_changes.hpp"
 #include "osculate/model/system_explicit.hpp"
 #include "osculate/model/temperatures.hpp"
@@ -76,25 +79,67 @@ BasicSystem<Dim>::Impl::Impl(const BasicModel<Dim>& m, int threads, const core::
   assembler.set_prescribed(std::vector<bool>(static_cast<std::size_t>(dofs.unknowns()), false));
 }
 
+namespace {
+
+/// Places that are there, then those of rows of other processes that are not; `rows` are owned
+/// here.
+std::vector<la::MatrixPlace> places_of_all(const core::Ranks& ranks, const std::vector<bool>& rows,
+                                           std::vector<la::MatrixPlace> places) {
+  std::vector<double> own;
+  std::set<std::pair<Index, Index>> others;
+  for (const la::MatrixPlace& place : places)
+    if (rows[static_cast<std::size_t>(place.row)])
+      own.insert(own.end(), {static_cast<double>(place.row), static_cast<double>(place.column)});
+    else
+      others.emplace(place.row, place.column);
+  const auto count = static_cast<std::size_t>(ranks.count());
+  std::vector<std::vector<double>> to(count, own);
+  to[static_cast<std::size_t>(ranks.rank())].clear();
+  const std::vector<double> taken = la::exchanged(ranks, to);
+  for (std::size_t i = 0; i < taken.size(); i += 2) {
+    const la::MatrixPlace place{static_cast<Index>(taken[i]), static_cast<Index>(taken[i + 1])};
+    if (others.emplace(place.row, place.column).second) places.push_back(place);
+  }
+  return places;
+}
+
+}  // namespace
+
 template <int Dim>
-void BasicSystem<Dim>::Impl::share(bool on, std::span<const pairing::PairState<Dim>> contact_now) {
-  if (!ranks || on == (bulk.ranks != nullptr)) return;
-  bulk.ranks = on ? ranks : nullptr;
+void BasicSystem<Dim>::Impl::share(std::span<const pairing::PairState<Dim>> contact_now) {
+  if (!ranks) return;
+  std::optional<std::vector<int>> next;
+  if (ranks->rank() == 0)
+    next = bulk.ranks ? better_owners<Dim>(model, contact_now, owner, ranks->count(), unevenness)
+                      : node_owners<Dim>(model, contact_now, ranks->count());
+  if (!ranks->any(next.has_value())) return;
+  owner = next ? std::move(*next) : std::vector<int>(model.reference.size());
+  ranks->spread(owner, 0);
+  const std::vector<la::MatrixPlace> grown = grown_by_all();
+  bulk.ranks = ranks;
+  bulk.shares = shares_of(model, dofs, constraints.count(), owner, ranks->rank(), ranks->count());
+  contact.workers = {bulk.threads, ranks, bulk.shares.seen};
+  builder = la::MatrixBuilder(constraints.end, ranks, bulk.shares.rows);
+  builder.grow_by(grown);
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::share_no_more() {
+  if (!bulk.ranks) return;
+  const std::vector<la::MatrixPlace> grown = grown_by_all();
+  bulk.ranks = nullptr;
+  contact.workers = {};
+  contact.workers.threads = bulk.threads;
+  builder = la::MatrixBuilder(constraints.end);
+  builder.grow_by(grown);
+}
+
+template <int Dim>
+std::vector<la::MatrixPlace> BasicSystem<Dim>::Impl::grown_by_all() {
   pattern_reserved = false;
   builder.finish();
-  const std::vector<la::MatrixPlace> grown = builder.grown();  // a checkpoint may know them
-  if (on) {
-    std::vector<int> owner = node_owners<Dim>(model, contact_now, ranks->count());
-    ranks->spread(owner, 0);
-    bulk.shares = shares_of(model, dofs, constraints.count(), owner, ranks->rank(), ranks->count());
-    builder = la::MatrixBuilder(constraints.end, ranks, bulk.shares.rows);
-    contact.workers = {bulk.threads, ranks, bulk.shares.seen};
-  } else {
-    builder = la::MatrixBuilder(constraints.end);
-    contact.workers = {};
-    contact.workers.threads = bulk.threads;
-  }
-  builder.grow_by(grown);
+  const std::vector<la::MatrixPlace>& here = builder.grown();  // a checkpoint may know them
+  return bulk.ranks ? places_of_all(*ranks, bulk.shares.rows, here) : here;
 }
 
 template <int Dim>

@@ -50,10 +50,18 @@ struct BasicSystem<Dim>::Impl {
   std::vector<bool> touched;    ///< by pair, in explicit time integration
   std::function<bool()> asked;  ///< whether iterations are to end
   const core::Ranks* ranks;     ///< who work on this together; null: this process is alone
+  std::vector<int> owner;       ///< of the nodes, since they share for the first time
+  double unevenness = 1;        ///< of contact among them (better_owners), of the first process
 
   Impl(const BasicModel<Dim>& m, int threads, const core::Ranks* of);
-  /// Whether the processes share cells and rows from here on, or do all of it each.
-  void share(bool on, std::span<const pairing::PairState<Dim>> contact_now = {});
+  /// The processes share cells and rows from here on, if there are several; where they do already
+  /// and contact has moved, by other owners (better_owners).
+  void share(std::span<const pairing::PairState<Dim>> contact_now);
+  /// Each does all of it.
+  void share_no_more();
+  /// Before another builder takes the place of this one: the entries that contact has had, on all
+  /// processes.
+  std::vector<la::MatrixPlace> grown_by_all();
   /// The places of all cells in the matrix.
   void reserve_pattern();
 

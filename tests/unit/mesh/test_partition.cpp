@@ -109,6 +109,25 @@ TEST(Partition, joints_are_dealt_out_evenly) {
   }
 }
 
+/// Few joints cannot be shared, nor those of one node: nodes are, all the same, and METIS has
+/// nothing to say.
+TEST(Partition, nodes_are_dealt_out_evenly_whatever_the_joints) {
+  const Cells cells = grid(60, 30);
+  ::testing::internal::CaptureStdout();
+  for (const Index count : {1, 3, 9, 200})
+    for (const bool one : {false, true}) {
+      Cells joints;
+      for (Index i = 0; i < count; ++i) joints.push_back({i, one ? 61 * 30 : i + 61});
+      for (const int parts : {2, 4, 8, 16}) {
+        const std::map<int, int> of = sizes(node_parts(cells, joints, 61 * 31, parts));
+        ASSERT_EQ(of.size(), static_cast<std::size_t>(parts)) << count << " " << one;
+        for (const auto& [p, nodes] : of)
+          EXPECT_LT(nodes, 1.5 * 61 * 31 / parts) << count << " " << one;
+      }
+    }
+  EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
+}
+
 TEST(Partition, joints_of_nodes_without_cells_do_not_matter) {
   const Cells cells = grid(4, 4);
   const std::vector<int> part = node_parts(cells, {{26, 3}, {27, 28}}, 25 + 7, 3);

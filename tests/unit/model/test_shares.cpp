@@ -158,45 +158,75 @@ TYPED_TEST(SharesOf, OwnCellsAreEveryCellOnce) {
   }
 }
 
-/// What share of the points between two long blocks, one `gap` above the other, has a place on two
-/// processes. A tool above them joins nothing.
+/// Two long blocks, one `gap` above the other, and a tool above them.
 template <int Dim>
-double torn(double gap, double height) {
+BasicModel<Dim> stacked(double gap, double height) {
   BasicModel<Dim> m = block<Dim>({{0, 0, 0}, {8, 1, 1}, {16, 2, 2}}, rubber<Dim>(100));
   add_block<Dim>(m, {{0, 0, 1 + gap}, {8, 1, 2 + gap}, {16, 2, 2}}, rubber<Dim>(100), "high");
-  const pairing::Boundary<Dim> slave = boundary_of(m, "high.bottom");
-  add_pair<Dim>(m, boundary_of(m, "block.top"), slave);
+  add_pair<Dim>(m, boundary_of(m, "block.top"), boundary_of(m, "high.bottom"));
   m.pairs.front().height = height;
-  const std::vector<Index>&low = nodes_of(m, "block.top"), &high = nodes_of(m, "high.bottom");
   add_pair<Dim>(m, tools<Dim>().front().add(m), boundary_of(m, "high.top"));
   m.pairs.back().height = 100;
-  const BasicState<Dim> start = BasicSystem<Dim>(m, 1).initial_state();
-  const std::vector<int> owner = node_owners<Dim>(m, start.pairs, 2);
-  const auto owned = [&](const std::vector<Index>& nodes) {
-    return std::ranges::count_if(nodes,
-                                 [&](Index n) { return owner[static_cast<std::size_t>(n)] == 0; });
-  };
-  if (height > gap) {  // both sides are shared
-    EXPECT_NEAR(static_cast<double>(owned(low)), 0.5 * low.size(), 0.15 * low.size());
-    EXPECT_NEAR(static_cast<double>(owned(high)), 0.5 * high.size(), 0.15 * high.size());
-  }
+  return m;
+}
+
+/// What share of the points between the blocks has a place on two processes.
+template <int Dim>
+double torn(const BasicModel<Dim>& m, const BasicState<Dim>& at, const std::vector<int>& owner) {
+  const auto of = [&](Index n) { return owner[static_cast<std::size_t>(n)]; };
   const pairing::PairDefinition<Dim>& pair = m.pairs.front().definition;
   int apart = 0;
   for (std::size_t i = 0; i < pair.slave.points.size(); ++i) {
-    const auto of = static_cast<std::size_t>(start.pairs[0].points[i].facet);
-    const auto& facet = pair.master.facets[of];
-    const int here = owner[static_cast<std::size_t>(pair.slave.points[i].nodes[0])];
+    const auto& facet = pair.master.facets[static_cast<std::size_t>(at.pairs[0].points[i].facet)];
+    const int here = of(pair.slave.points[i].nodes[0]);
     apart += std::any_of(facet.nodes.begin(), facet.nodes.begin() + facet.count,
-                         [&](Index n) { return owner[static_cast<std::size_t>(n)] != here; });
+                         [&](Index n) { return of(n) != here; });
   }
   return static_cast<double>(apart) / static_cast<double>(pair.slave.points.size());
 }
 
 TYPED_TEST(SharesOf, PartnersInContactAreTogether) {
   constexpr int Dim = TypeParam::value;
-  EXPECT_LT(torn<Dim>(0, 0), 0.2);      // in contact
-  EXPECT_LT(torn<Dim>(0.2, 0.5), 0.2);  // nearer than a cell is high
-  EXPECT_GT(torn<Dim>(0.6, 0.5), 0.8);  // farther: a body each
+  for (const auto& [gap, height] : std::vector<std::array<double, 2>>{{0, 0}, {0.2, 0.5}}) {
+    const BasicModel<Dim> m = stacked<Dim>(gap, height);  // in contact; nearer than a cell is high
+    const BasicState<Dim> start = BasicSystem<Dim>(m, 1).initial_state();
+    const std::vector<int> owner = node_owners<Dim>(m, start.pairs, 2);
+    EXPECT_LT(torn(m, start, owner), 0.2);
+    for (const char* const side : {"block.top", "high.bottom"}) {  // each is shared
+      const std::vector<Index>& nodes = nodes_of(m, side);
+      const auto own = std::ranges::count_if(
+          nodes, [&](Index n) { return owner[static_cast<std::size_t>(n)] == 0; });
+      const auto size = static_cast<double>(nodes.size());
+      EXPECT_NEAR(static_cast<double>(own), 0.5 * size, 0.15 * size) << side;
+    }
+  }
+}
+
+TYPED_TEST(SharesOf, OwnersChangeWhereContactHasMoved) {
+  constexpr int Dim = TypeParam::value;
+  BasicModel<Dim> m = stacked<Dim>(0.6, 0.5);
+  m.pairs.pop_back();
+  BasicState<Dim> state = BasicSystem<Dim>(m, 1).initial_state();
+  const std::vector<int> apart = node_owners<Dim>(m, state.pairs, 2);
+  EXPECT_GT(torn(m, state, apart), 0.8);  // a body each
+  double unevenness = 1;
+  EXPECT_FALSE(better_owners<Dim>(m, state.pairs, apart, 2, unevenness));
+  const std::size_t points = state.pairs[0].points.size();
+  for (std::size_t i = 0; i < points; ++i) {
+    state.pairs[0].points[i].gap = 0.1;
+    unevenness = 1;
+    const auto better = better_owners<Dim>(m, state.pairs, apart, 2, unevenness);
+    if (20 * (i + 1) < m.reference.size()) {  // so few do not pay
+      EXPECT_FALSE(better) << i;
+    }
+    if (i + 1 < points) continue;
+    ASSERT_TRUE(better);
+    EXPECT_LT(torn(m, state, *better), 0.2);
+    EXPECT_LT(unevenness, 1.3);
+    EXPECT_FALSE(better_owners<Dim>(m, state.pairs, *better, 2, unevenness));
+    unevenness = 1.7;  // not to be had better, it is said
+    EXPECT_FALSE(better_owners<Dim>(m, state.pairs, apart, 2, unevenness));
+  }
 }
 
 /// What a system has after an evaluation.
