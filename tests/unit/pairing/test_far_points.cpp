@@ -8,6 +8,7 @@
 #include <functional>
 #include <numbers>
 
+#include "history_checks.hpp"
 #include "osculate/pairing/far_points.hpp"
 #include "osculate/pairing/point_normal.hpp"
 #include "own_surface_sample.hpp"
@@ -16,19 +17,6 @@ namespace osculate::testing {
 namespace {
 
 using contact::Status;
-
-template <int Dim>
-void expect_same_history(const contact::PointHistory<Dim>& a, const contact::PointHistory<Dim>& b) {
-  EXPECT_EQ(a.active, b.active);
-  EXPECT_EQ(a.facet, b.facet);
-  EXPECT_EQ(a.feature, b.feature);
-  EXPECT_EQ(a.xi, b.xi);
-  EXPECT_EQ(a.gap, b.gap);
-  EXPECT_EQ(a.traction, b.traction);
-  EXPECT_EQ(a.slip, b.slip);
-  EXPECT_EQ(a.slid, b.slid);
-  EXPECT_EQ(a.friction_work, b.friction_work);
-}
 
 struct Seen {
   std::size_t looks = 0, back = 0, all = 0, touching = 0, began = 0;

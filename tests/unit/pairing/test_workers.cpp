@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "history_checks.hpp"
 #include "osculate/pairing/smoothing.hpp"
 #include "pair_sample.hpp"
 #include "ranks.hpp"
@@ -27,12 +28,7 @@ void expect_same_point(const pairing::PointResult<Dim>& a, const pairing::PointR
   EXPECT_EQ(a.slip_increment, b.slip_increment);
   EXPECT_EQ(a.branch.branch, b.branch.branch);
   EXPECT_EQ(a.branch.direction, b.branch.direction);
-  EXPECT_EQ(a.history.active, b.history.active);
-  EXPECT_EQ(a.history.gap, b.history.gap);
-  EXPECT_EQ(a.history.traction, b.history.traction);
-  EXPECT_EQ(a.history.facet, b.history.facet);
-  EXPECT_EQ(a.history.feature, b.history.feature);
-  EXPECT_EQ(a.history.xi, b.history.xi);
+  expect_same_history<Dim>(a.history, b.history);
 }
 
 /// Blocks with a tangent, which are those that have the node `seen`. Of a smooth master's facets
