@@ -5,10 +5,15 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <initializer_list>
+#include <vector>
 
 #include "osculate/api/agree.hpp"
 #include "osculate/core/error.hpp"
@@ -70,6 +75,20 @@ la::RanksLibrary begin(int processes) {
   return out;
 }
 
+/// Of the bytes of this program (FNV-1a, eight at a time), as numbers that a double has exactly.
+std::array<double, 2> mark_of_program() {
+  std::ifstream file("/proc/self/exe", std::ios::binary);
+  std::vector<std::uint64_t> words(std::size_t{1} << 15);
+  const auto bytes = static_cast<std::streamsize>(words.size() * sizeof(words[0]));
+  std::uint64_t mark = 14695981039346656037U;
+  do {
+    std::ranges::fill(words, 0);
+    file.read(reinterpret_cast<char*>(words.data()), bytes);
+    for (const std::uint64_t word : words) mark = (mark ^ word) * 1099511628211U;
+  } while (file);
+  return {static_cast<double>(mark >> 32U), static_cast<double>(mark & 0xffffffffU)};
+}
+
 [[noreturn]] void end_all(const core::Ranks& ranks, const std::string& why, int code) {
   const std::string text = fmt::format(
       "stopped: process {} cannot go on: {}; what was written before is kept\n", ranks.rank(), why);
@@ -98,6 +117,7 @@ int join(const std::function<int(const model::Together&)>& part) {
   double& fewest = library.solvers.mumps.fewest_entries;
   if (const char* const text = std::getenv("OSCULATE_SHARE_FROM")) fewest = std::atof(text);
   const core::Ranks& ranks = *library.ranks;
+  const bool same = ranks.agree_on(mark_of_program());
   ranks.spread({&fewest, 1}, 0);  // other machines need not have it in their environment
   // All is said before they part: mpirun kills the others when the first one has ended badly.
   const auto part_with = [&](int code) {
@@ -106,6 +126,10 @@ int join(const std::function<int(const model::Together&)>& part) {
     return code;
   };
   try {
+    if (!same)
+      throw core::InputError({},
+                             "the processes are not of the same program: install the same "
+                             "build of Osculate wherever they are started");
     return part_with(part({&ranks, library.solvers}));
   } catch (const core::InputError& error) {  // of all processes
     return part_with(report(error));

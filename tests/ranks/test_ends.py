@@ -51,6 +51,23 @@ class Ends(RanksCase):
         finally:
             ranks_case.PROGRAM = PROGRAM
 
+    def test_other_programs(self):
+        """A byte behind the program's end makes it another one."""
+        self.write(MODEL)
+        os.mkdir(self.path("bin"))
+        os.symlink(os.path.join(os.path.dirname(PROGRAM), "../lib"), self.path("lib"))
+        other = shutil.copy(PROGRAM, self.path("bin"))
+        command = together(2, "run", "model.yaml")
+        command[command.index("-n") + 1] = "1"
+        for changed in (False, True):
+            if changed:
+                with open(other, "ab") as file:
+                    file.write(b"x")
+            done = subprocess.run([*command, ":", "-n", "1", other, "run", "model.yaml"], cwd=self.folder.name, capture_output=True,
+                                  text=True, env=environment(), timeout=self.limit, stdin=subprocess.DEVNULL)
+            self.assertEqual(done.returncode, 2 if changed else 0, done.stderr)
+        self.expect_message(done, "not of the same program")
+
     def test_a_budget(self):
         self.write(MODEL)
         for processes in (1, 2):
