@@ -7,12 +7,14 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <initializer_list>
+#include <thread>
 #include <vector>
 
 #include "osculate/api/agree.hpp"
@@ -75,17 +77,35 @@ la::RanksLibrary begin(int processes) {
   return out;
 }
 
-/// Of the bytes of this program (FNV-1a, eight at a time), as numbers that a double has exactly.
+/// The program and the libraries of Osculate beside it.
+std::vector<std::string> files_of_program() {
+  std::vector<std::string> files;
+  std::error_code error;
+  const std::filesystem::directory_iterator all(
+      program_folder() + "/" OSCULATE_LIBRARIES_FROM_PROGRAM, error);
+  for (const std::filesystem::directory_entry& entry : all)
+    if (entry.path().filename().string().starts_with("libosculate") && entry.is_regular_file(error))
+      files.push_back(entry.path().string());
+  std::ranges::sort(files, {}, [](const std::string& path) {
+    return std::filesystem::path(path).filename().string();
+  });
+  files.insert(files.begin(), "/proc/self/exe");
+  return files;
+}
+
+/// Of the bytes of these files (FNV-1a, eight at a time), as numbers that a double has exactly.
 std::array<double, 2> mark_of_program() {
-  std::ifstream file("/proc/self/exe", std::ios::binary);
   std::vector<std::uint64_t> words(std::size_t{1} << 15);
   const auto bytes = static_cast<std::streamsize>(words.size() * sizeof(words[0]));
   std::uint64_t mark = 14695981039346656037U;
-  do {
-    std::ranges::fill(words, 0);
-    file.read(reinterpret_cast<char*>(words.data()), bytes);
-    for (const std::uint64_t word : words) mark = (mark ^ word) * 1099511628211U;
-  } while (file);
+  for (const std::string& path : files_of_program()) {
+    std::ifstream file(path, std::ios::binary);
+    do {
+      std::ranges::fill(words, 0);
+      file.read(reinterpret_cast<char*>(words.data()), bytes);
+      for (const std::uint64_t word : words) mark = (mark ^ word) * 1099511628211U;
+    } while (file);
+  }
   return {static_cast<double>(mark >> 32U), static_cast<double>(mark & 0xffffffffU)};
 }
 
@@ -108,7 +128,10 @@ bool is_alone(const std::string& command) {
   return false;
 }
 
-int alike(int code) { return voice() == STDERR_FILENO ? code : done; }
+int after_the_first(int code) {
+  if (voice() != STDERR_FILENO) std::this_thread::sleep_for(std::chrono::seconds(1));
+  return code;
+}
 
 int join(const std::function<int(const model::Together&)>& part) {
   const int processes = processes_started();

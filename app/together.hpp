@@ -15,9 +15,10 @@ void let_the_first_speak();
 /// Whether this process is alone, as a command for one process wants it; says so where it is not.
 [[nodiscard]] bool is_alone(const std::string& command);
 
-/// The exit code where all of these processes have said the same of their command line: `code` of
-/// the first one. mpirun would end it, before it has spoken, for the code of another.
-[[nodiscard]] int alike(int code);
+/// Gives `code` back where something is wrong with the command line, which all of these processes
+/// say alike; those that are silent a second later: mpirun ends the first one for the code of
+/// another.
+[[nodiscard]] int after_the_first(int code);
 
 /// Does a part of the program that all these processes do: they join before it and part behind it.
 /// Where one of them cannot go on it says why and ends all.

@@ -54,7 +54,7 @@ int run_program(int argc, char** argv) {
   std::ranges::reverse(arguments);
   if (const std::string wrong = unknown_command(app, arguments); !wrong.empty()) {
     std::fprintf(stderr, "error: %s\n", wrong.c_str());
-    return alike(bad_input);
+    return after_the_first(bad_input);
   }
   app.parse_complete_callback([&app] {
     const std::string name = app.get_subcommands().front()->get_name();
@@ -63,7 +63,7 @@ int run_program(int argc, char** argv) {
   try {
     app.parse(arguments);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? done : alike(bad_input);
+    return app.exit(error) == 0 ? done : after_the_first(bad_input);
   }
   return exit_code;
 }

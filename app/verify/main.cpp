@@ -205,7 +205,7 @@ int run_program(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? done : alike(bad_input);
+    return app.exit(error) == 0 ? done : after_the_first(bad_input);
   }
   return join([&](const model::Together& together) {
     options.together = together;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 #include <new>
+#include <stdexcept>
 
 namespace osculate::mesh {
 namespace {
@@ -16,6 +17,7 @@ using MetisArray = std::unique_ptr<idx_t, MetisFree>;
 
 void check(int done) {
   if (done == METIS_ERROR_MEMORY) throw std::bad_alloc();
+  if (done != METIS_OK) throw std::logic_error("METIS does not take the nodes of the cells");
 }
 
 /// Cells of nodes that are numbered as they come.
@@ -36,7 +38,7 @@ struct Numbered {
 
 /// Which nodes are neighbours of which, and what it costs to part them: those of a joint 16 times
 /// as much as others, with which parts see 1.04 to 1.2 times their even share of the joints between
-/// two blocks, where they see 2 to 8 times as many by the same costs (docs/decisions/110).
+/// two blocks, where they see 2 to 8 times as many by the same costs (docs/decisions/112).
 struct Neighbours {
   MetisArray start, nodes;
   std::vector<idx_t> cost;
@@ -73,11 +75,9 @@ std::vector<idx_t> parts_by(Numbered& graph, Neighbours& by, std::vector<idx_t>&
                             int parts) {
   std::vector<idx_t> part(static_cast<std::size_t>(graph.used), 0);
   idx_t kinds = static_cast<idx_t>(weights.size() / part.size()), into = parts, cut = 0;
-  const int done = METIS_PartGraphRecursive(&graph.used, &kinds, by.start.get(), by.nodes.get(),
-                                            weights.data(), nullptr, by.cost.data(), &into, nullptr,
-                                            nullptr, nullptr, &cut, part.data());
-  check(done);
-  if (done != METIS_OK) part.assign(part.size(), 0);
+  check(METIS_PartGraphRecursive(&graph.used, &kinds, by.start.get(), by.nodes.get(),
+                                 weights.data(), nullptr, by.cost.data(), &into, nullptr, nullptr,
+                                 nullptr, &cut, part.data()));
   return part;
 }
 

@@ -112,12 +112,12 @@ std::optional<std::vector<int>> better_owners(const BasicModel<Dim>& model,
   if (20 * joints.size() < owner.size()) return std::nullopt;
   const double even = static_cast<double>(joints.size()) / parts;
   const double now = most_seen(joints, owner, parts) / even;
+  if (now < 1.5) unevenness = 1;
   if (now < std::max(1.5, 1.25 * unevenness)) return std::nullopt;
   std::vector<int> next = owners_of(model, joints, parts);
   const double then = most_seen(joints, next, parts) / even;
-  const bool better = now >= 1.25 * then;
-  unevenness = better ? then : now;
-  if (!better) return std::nullopt;
+  unevenness = std::min(now, then);
+  if (now < 1.25 * then) return std::nullopt;
   return next;
 }
 

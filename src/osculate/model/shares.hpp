@@ -42,8 +42,9 @@ template <int Dim>
 /// many as nodes or more, and the process that sees most of them sees half as many again as it
 /// should, a quarter more than by the new owners. Nothing where the owners may stay.
 ///
-/// Input      unevenness: how many times its even share that process saw at best when this was
-///            asked last, 1 at first; it is looked for anew from a quarter more on
+/// Input      unevenness: how many times its even share that process sees at best, as was found
+///            last, 1 at first and where it is below half as many again; new owners are looked for
+///            from a quarter more on
 template <int Dim>
 [[nodiscard]] std::optional<std::vector<int>> better_owners(
     const BasicModel<Dim>& model, std::span<const pairing::PairState<Dim>> contact,
