@@ -13,10 +13,11 @@ namespace osculate::model {
 /// and a process evaluates the cells that its nodes and unknowns see. Cells between two owners are
 /// evaluated by both, so that rows of the matrix and forces on nodes are summed up by one process,
 /// in the order of the cells: their bits are those of one process alone.
-/// So it is with places of contact points and their tangents (pairing::Workers). States, what
-/// points report, and loads are the same on all processes.
+/// So it is with tangents of contact points (pairing::Workers), whose places on the master are
+/// shared in equal numbers, whoever owns their nodes. States, what points report, and loads are the
+/// same on all processes.
 ///
-/// Decision   docs/decisions/093-several-processes.md
+/// Decision   docs/decisions/093-several-processes.md, 112-partners-in-contact.md
 /// Tested by  tests/unit/model/test_shares.cpp, tests/ranks
 struct Shares {
   std::vector<char> mine;              ///< by node: owned by this process
