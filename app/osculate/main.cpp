@@ -7,7 +7,7 @@
 #include "osculate/core/memory.hpp"
 #include "osculate/core/text.hpp"
 #include "osculate/core/version.hpp"
-#include "osculate/la/blas_threads.hpp"
+#include "osculate/la/blas_at_start.hpp"
 
 namespace {
 
@@ -73,6 +73,6 @@ int run_program(int argc, char** argv) {
 int main(int argc, char** argv) {
   osculate::app::let_the_first_speak();
   osculate::core::keep_freed_memory();
-  osculate::la::end_idle_blas_threads();
+  osculate::la::prepare_blas();
   return osculate::app::guarded(run_program, argc, argv);
 }

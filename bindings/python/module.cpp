@@ -10,7 +10,7 @@
 #include "osculate/core/memory.hpp"
 #include "osculate/core/version.hpp"
 #include "osculate/io/atomic_file.hpp"
-#include "osculate/la/blas_threads.hpp"
+#include "osculate/la/blas_at_start.hpp"
 
 namespace osculate::python {
 namespace {
@@ -66,7 +66,7 @@ PYBIND11_MODULE(_core, m) {
         "osculate: this build needs a CPU with AVX2 and FMA (x86-64-v3); configure with "
         "-DOSCULATE_BASELINE=ON for older ones");
 #endif
-  la::end_idle_blas_threads();
+  la::prepare_blas();
   m.attr("version") = std::string(core::version);
   m.attr("comments") = python::all_comments();
   pybind11::register_exception_translator(python::translate);

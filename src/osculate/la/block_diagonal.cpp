@@ -54,7 +54,7 @@ BlockDiagonal::BlockDiagonal(const CompressedRows& a, const GroupStarts& start, 
   });
 }
 
-void BlockDiagonal::update(const GroupedRows<double>& a, const std::vector<char>& groups,
+void BlockDiagonal::update(const GroupedRows& a, const std::vector<char>& groups,
                            core::Crew& crew) {
   crew.share_runs(groups.size(), blocks_at_least, [&](std::size_t begin, std::size_t end) {
     for (std::size_t g = begin; g < end; ++g) {

@@ -17,7 +17,7 @@ class BlockDiagonal {
   BlockDiagonal() = default;
   BlockDiagonal(const CompressedRows& a, const GroupStarts& start, core::Crew& crew);
   /// Takes some groups' blocks from another matrix of the same groups.
-  void update(const GroupedRows<double>& a, const std::vector<char>& groups, core::Crew& crew);
+  void update(const GroupedRows& a, const std::vector<char>& groups, core::Crew& crew);
   /// y = D^-1 r
   void apply(const Eigen::VectorXd& r, core::Crew& crew, Eigen::VectorXd& y) const;
   [[nodiscard]] CompressedRows as_matrix() const;

@@ -144,7 +144,7 @@ void for_each(const CompressedRows& a, const std::vector<Index>& before, const T
         take(i, static_cast<Index>(entry.col()), entry.value());
 }
 template <class Take>
-void for_each(const GroupedRows<double>& a, const std::vector<Index>& before, const Take& take) {
+void for_each(const GroupedRows& a, const std::vector<Index>& before, const Take& take) {
   a.for_each(before, take);
 }
 
@@ -253,6 +253,8 @@ class MultigridEngine final : public Engine {
     part_.dealt = dealt_as(k);
     if (!build(take_part(k, symmetry), symmetry, places)) return false;
     take(take_part(k, symmetry), places);  // not before: the coarser models take most memory
+    mark_ = k.mark;
+    touched_ = k.touched;
     in_step_ = true;
     return true;
   }
@@ -317,7 +319,9 @@ class MultigridEngine final : public Engine {
     bool fits = false;
     if (symmetry == Symmetry::unsymmetric) {
       const auto rows = [&](Index i, const auto& each) { part_.for_each_in_row(k, i, each); };
-      fits = part_.halo.all(may && a_.update(rows, *crew_, differs));
+      const std::vector<char> near = may ? groups_that_may_differ(k) : std::vector<char>{};
+      fits =
+          part_.halo.all(may && a_.update(rows, *crew_, differs, near.empty() ? nullptr : &near));
       if (!fits) a_ = {};
       if (!fits) take(take_part(k, symmetry), places);
     } else {
@@ -331,7 +335,23 @@ class MultigridEngine final : public Engine {
       if (!fits) take(a, places);
     }
     if (fits) take_diagonal(&differs);
+    mark_ = k.mark;
+    touched_ = k.touched;
     return fits;
+  }
+  /// Groups of rows that this matrix or the last one that was taken has touched; nothing, where
+  /// that says nothing of the others.
+  [[nodiscard]] std::vector<char> groups_that_may_differ(const SparseMatrix& k) const {
+    if (k.mark == nullptr || k.mark != mark_) return {};
+    const GroupStarts& start = a_.groups();
+    std::vector<char> may(start.size() - 1, 0);
+    for (const std::vector<Index>* const rows : {&k.touched, &touched_})
+      for (const Index u : *rows) {
+        const Index row = part_.dealt.ranks ? part_.here[as_size(u)] : u;
+        may[as_size(static_cast<Index>(std::ranges::upper_bound(start, row) - start.begin() - 1))] =
+            1;
+      }
+    return may;
   }
   bool build(CompressedRows&& a, Symmetry symmetry, const Places& places) {
     call_crew(places.threads);
@@ -343,7 +363,8 @@ class MultigridEngine final : public Engine {
   }
   void take(const CompressedRows& a, const Places& places) {
     a_ = {};
-    a_ = GroupedRows<double>(a, groups_of(places, part_), *crew_);
+    mark_.reset();
+    a_ = GroupedRows(a, groups_of(places, part_), *crew_);
     take_diagonal();
   }
   /// `differs`: of the groups, whether there are others than before; null: of all of them.
@@ -375,7 +396,9 @@ class MultigridEngine final : public Engine {
   MumpsOptions direct_;
   std::unique_ptr<core::Crew> crew_;  ///< outlives `bodies_`
   Part part_;
-  GroupedRows<double> a_;
+  GroupedRows a_;
+  std::shared_ptr<const char> mark_{};  ///< of the matrix that was taken last, as it has them
+  std::vector<Index> touched_{};
   bool in_step_ = false;  ///< what `bodies_` multiply with has the places and values of `a_`
   Eigen::VectorXd own_diagonal_, diagonal_;
   std::unique_ptr<Multigrid> bodies_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "osculate/core/crew.hpp"
@@ -14,31 +15,33 @@ namespace osculate::la {
 /// column stand together, and consecutive columns are named once, so that an entry of three rows
 /// takes little more memory than its value, which is what a product waits for.
 ///
-/// Formula    y = A x . Each row is summed up in the order of its columns in double precision, so
-///            that the bits are those of `multiply` where Value is double, and depend on no number
-///            of threads. As float, entries are rounded to 24 bits, times a power of two that
-///            keeps the largest one in range: a linear map near to A.
+/// Formula    y = A x . Each row is summed up in the order of its columns, so that the bits are
+/// those
+///            of `multiply`, and depend on no number of threads.
 /// Tested by  tests/unit/la/test_grouped_rows.cpp
-template <class Value>
 class GroupedRows {
  public:
+  /// Consecutive columns.
+  struct Run {
+    Index first, count;
+  };
   GroupedRows() = default;
   GroupedRows(const CompressedRows& a, GroupStarts groups, core::Crew& crew);
-  /// The same matrix with entries of this kind.
-  template <class Other>
-  explicit GroupedRows(const GroupedRows<Other>& of);
   /// Takes the rows of another matrix: the groups in which it differs. False: an entry has no
   /// place, and no product is to be made before another matrix is assigned.
   ///
-  /// Input      rows(i, take): calls take(column, value) for what is not zero in row i
+  /// Input      rows(i, take): calls take(column, value) for what is not zero in row i;
+  ///            may_differ: groups that are looked at, null: all
   template <class Rows>
-  bool update(const Rows& rows, core::Crew& crew, std::vector<char>& differs) {
+  bool update(const Rows& rows, core::Crew& crew, std::vector<char>& differs,
+              const std::vector<char>* may_differ = nullptr) {
     differs.assign(groups_.size() - 1, 0);
     std::atomic<bool> fits = true;
     crew.share_runs(groups_.size() - 1, groups_at_least, [&](std::size_t begin, std::size_t end) {
-      std::vector<Value> values;
+      std::vector<double> values;
       for (std::size_t g = begin; g < end && fits; ++g) {
-        values.assign(first_value_[g + 1] - first_value_[g], Value{0});
+        if (may_differ && (*may_differ)[g] == 0) continue;
+        values.assign(first_value_[g + 1] - first_value_[g], 0.0);
         for (Index i = 0; i < size_of(g); ++i)
           if (!put([&](const auto& take) { rows(groups_[g] + i, take); }, g, i, values.data()))
             fits = false;
@@ -49,9 +52,6 @@ class GroupedRows {
     });
     return fits;
   }
-  /// Takes the values of some groups from a matrix with the same places for entries.
-  template <class Other>
-  void copy(const GroupedRows<Other>& from, const std::vector<char>& groups);
   void multiply(const Eigen::VectorXd& x, core::Crew& crew, Eigen::VectorXd& y) const;
   /// Entries that are not zero, and those of the diagonal.
   [[nodiscard]] CompressedRows as_rows() const;
@@ -63,12 +63,12 @@ class GroupedRows {
   void for_each(const Take& take) const {
     for (std::size_t g = 0; g + 1 < groups_.size(); ++g)
       for (Index i = 0; i < size_of(g); ++i) {
-        const Value* next = values_.data() + first_value_[g] + i;
+        const double* next = values_.data() + first_value_[g] + i;
         for (std::size_t r = first_run_[g]; r < first_run_[g + 1]; ++r)
           for (Index k = 0; k < runs_[r].count; ++k, next += size_of(g))
             if (const Index row = groups_[g] + i, column = runs_[r].first + k;
                 *next != 0 || row == column)
-              take(row, column, static_cast<double>(*next) / scale_);
+              take(row, column, *next);
       }
   }
   /// The same in some columns, of which `before` says how many are below each.
@@ -81,27 +81,32 @@ class GroupedRows {
     };
     for (std::size_t g = 0; g + 1 < groups_.size(); ++g)
       for (Index i = 0; i < size_of(g); ++i) {
-        const Value* of_run = values_.data() + first_value_[g] + i;
+        const double* of_run = values_.data() + first_value_[g] + i;
         for (std::size_t r = first_run_[g]; r < first_run_[g + 1]; ++r) {
           const auto& [first, count] = runs_[r];
           for (Index c = first; has(c, first + count); ++c)
-            if (const Value value = of_run[size_of(g) * (c - first)];
+            if (const double value = of_run[size_of(g) * (c - first)];
                 has(c, c + 1) && (value != 0 || c == groups_[g] + i))
-              take(groups_[g] + i, c, static_cast<double>(value) / scale_);
+              take(groups_[g] + i, c, value);
           of_run += static_cast<std::ptrdiff_t>(size_of(g)) * count;
         }
       }
   }
   /// Entries of a group's rows in the columns of the same numbers.
   [[nodiscard]] Eigen::MatrixXd diagonal_block(std::size_t group) const;
+  [[nodiscard]] std::span<const Run> runs(std::size_t group) const {
+    return {runs_.data() + first_run_[group], first_run_[group + 1] - first_run_[group]};
+  }
+  /// Entries in the columns of the runs, column by column, the rows of one behind each other.
+  [[nodiscard]] std::span<const double> values(std::size_t group) const {
+    return {values_.data() + first_value_[group], first_value_[group + 1] - first_value_[group]};
+  }
+  /// Of each row, in size.
+  [[nodiscard]] Eigen::VectorXd largest_entries() const;
+  [[nodiscard]] Index columns() const { return columns_; }
 
  private:
-  template <class Other>
-  friend class GroupedRows;
   static constexpr std::size_t groups_at_least = 64;  ///< while a thread is told of them
-  struct Run {
-    Index first, count;
-  };
   [[nodiscard]] Index size_of(std::size_t group) const {
     return groups_[group + 1] - groups_[group];
   }
@@ -112,29 +117,25 @@ class GroupedRows {
   }
   /// Writes row `i` of a group among the values of the group. False: an entry has no place.
   template <class Row>
-  bool put(const Row& row, std::size_t group, Index i, Value* values) const {
+  bool put(const Row& row, std::size_t group, Index i, double* values) const {
     const Run* run = runs_.data() + first_run_[group];
     const Run* const end = runs_.data() + first_run_[group + 1];
     const auto rows = static_cast<std::ptrdiff_t>(size_of(group));
-    Value* of_run = values + i;
+    double* of_run = values + i;
     bool fits = true;
     row([&](Index column, double value) {
       for (; run != end && run->first + run->count <= column; ++run) of_run += rows * run->count;
       fits = fits && run != end && column >= run->first;
-      if (fits) of_run[rows * (column - run->first)] = static_cast<Value>(scale_ * value);
+      if (fits) of_run[rows * (column - run->first)] = value;
     });
     return fits;
   }
 
   GroupStarts groups_{0};
   Index columns_ = 0;
-  double scale_ = 1;  ///< of the values
   std::vector<std::size_t> first_run_{0}, first_value_{0};
   std::vector<Run> runs_;  ///< of consecutive columns
-  std::vector<Value> values_;
+  std::vector<double> values_;
 };
-
-extern template class GroupedRows<double>;
-extern template class GroupedRows<float>;
 
 }  // namespace osculate::la

@@ -34,7 +34,10 @@ struct Iterative::Impl {
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
-  [[nodiscard]] bool suits(const SparseMatrix& k) const;
+  std::shared_ptr<const char> finite_mark{};  ///< of a matrix of numbers
+
+  [[nodiscard]] bool suits(const SparseMatrix& k);
+  [[nodiscard]] bool are_numbers(const SparseMatrix& k);
   bool build(const SparseMatrix& k);
   bool build_again();
   bool begin_build();
@@ -46,15 +49,28 @@ struct Iterative::Impl {
   SolveStatus solve(Eigen::VectorXd& rhs);
 };
 
-bool Iterative::Impl::suits(const SparseMatrix& k) const {
+/// Looks at what may differ from the last matrix of its mark.
+bool Iterative::Impl::are_numbers(const SparseMatrix& k) {
+  const auto sum = [&](Index begin, Index end) {
+    return (0.0 * Eigen::Map<const Eigen::ArrayXd>(k.value.data() + begin, end - begin)).sum();
+  };
+  double none = 0;
+  if (k.mark != nullptr && k.mark == finite_mark)
+    for (const Index i : k.touched)
+      none += sum(k.row_start[as_size(i)], k.row_start[as_size(i) + 1]);
+  else
+    none = sum(0, static_cast<Index>(k.value.size()));
+  finite_mark = none == 0 ? k.mark : nullptr;
+  return none == 0;
+}
+
+bool Iterative::Impl::suits(const SparseMatrix& k) {
   constexpr Index fewest = 1500;
   if (k.n < fewest || !places.known(k.n)) return false;
   Index count = 0;
   for (std::size_t i = 0; i < places.node.size(); ++i)
     if (places.exact[i] != 0 || places.node[i] < 0) ++count;
-  const Eigen::Map<const Eigen::ArrayXd> values(k.value.data(),
-                                                static_cast<Eigen::Index>(k.value.size()));
-  const bool finite = (0.0 * values).sum() == 0;
+  const bool finite = are_numbers(k);
   return 2 * count < k.n && (k.ranks ? k.ranks->all(finite) : finite);
 }
 

@@ -7,7 +7,7 @@
 
 #include "osculate/la/block_diagonal.hpp"
 #include "osculate/la/by_itself.hpp"
-#include "osculate/la/grouped_rows.hpp"
+#include "osculate/la/compact_rows.hpp"
 #include "osculate/la/long_vectors.hpp"
 #include "osculate/la/mumps.hpp"
 #include "osculate/la/preconditioned.hpp"
@@ -15,44 +15,54 @@
 namespace osculate::la {
 namespace {
 
-/// One model. Its products are of entries in single precision: they are a preconditioner's.
+/// One model. Its products are of entries in two bytes: they are a preconditioner's.
 struct Level {
   CompressedRows a;  ///< for as long as a coarser model is made of it
   Halo halo;
-  GroupedRows<float> products, p, transposed;  ///< the last two lead to the next coarser one
-  GroupStarts start;                           ///< of own unknowns
-  Eigen::MatrixXd near_null;                   ///< likewise
+  CompactRows products, p, transposed;  ///< the last two lead to the next coarser one
+  GroupStarts start;                    ///< of own unknowns
+  Eigen::MatrixXd near_null;            ///< likewise
   BlockDiagonal inverse;
   double largest = 0;        ///< eigenvalue of D^-1 A
   Eigen::VectorXd stiffest;  ///< about its eigenvector
   Eigen::VectorXd r, d, t, of_coarse;
 
+  void take_products(const GroupedRows& matrix, core::Crew& crew);
   /// What the smoother needs; false: there are no numbers.
   bool prepare_smoother(const CompressedRows& matrix, core::Crew& crew);
-  bool refresh_smoother(const GroupedRows<double>& matrix, const std::vector<char>* differs,
+  bool refresh_smoother(const GroupedRows& matrix, const std::vector<char>* differs,
                         core::Crew& crew);
   bool find_largest(int rounds, core::Crew& crew);
   void smooth(Eigen::VectorXd& solution, bool residual_wanted, core::Crew& crew);
 };
 
+/// Rounded beside the largest entries of both rows: where contact is stiff, what its unknowns have
+/// to do with others is small.
+void Level::take_products(const GroupedRows& matrix, core::Crew& crew) {
+  Eigen::VectorXd size = matrix.largest_entries().cwiseSqrt();
+  size.conservativeResize(halo.here());
+  halo.update(size);
+  products = CompactRows(matrix, crew, size);
+}
+
 bool Level::prepare_smoother(const CompressedRows& matrix, core::Crew& crew) {
   constexpr int rounds = 15;
   products = {};  // gives its memory back before
-  products = GroupedRows<float>(matrix, start, crew);
+  take_products(GroupedRows(matrix, start, crew), crew);
   inverse = BlockDiagonal(matrix, start, crew);
   stiffest = noise(halo.own()).normalized();
   return find_largest(rounds, crew);
 }
 
-bool Level::refresh_smoother(const GroupedRows<double>& matrix, const std::vector<char>* differs,
+bool Level::refresh_smoother(const GroupedRows& matrix, const std::vector<char>* differs,
                              core::Crew& crew) {
   constexpr int rounds = 10;
   if (differs) {
-    products.copy(matrix, *differs);
+    products.copy(matrix, *differs, crew);
     inverse.update(matrix, *differs, crew);
   } else {
     products = {};
-    products = GroupedRows<float>(matrix);
+    take_products(matrix, crew);
     inverse.update(matrix, std::vector<char>(start.size() - 1, 1), crew);
   }
   stiffest.normalize();
@@ -242,8 +252,9 @@ bool Multigrid::Impl::coarsen() {
     with_columns_here(a, coarse->halo).swap(coarse->a);
   }
   const CompressedRows p = with_columns_here(next.p, coarse->halo);
-  fine.p = GroupedRows<float>(p, fine.start, crew);
-  fine.transposed = GroupedRows<float>(p.transpose(), with_others(next.start, coarse->halo), crew);
+  fine.p = CompactRows(GroupedRows(p, fine.start, crew), crew);
+  fine.transposed =
+      CompactRows(GroupedRows(p.transpose(), with_others(next.start, coarse->halo), crew), crew);
   coarse->start = std::move(next.start);
   coarse->near_null = std::move(next.near_null);
   fine.near_null = {};
@@ -283,7 +294,7 @@ bool Multigrid::build(CompressedRows&& a, Halo halo, GroupStarts groups,
   return last.all(report.status == SolveStatus::ok);
 }
 
-bool Multigrid::refresh(const GroupedRows<double>& a, const std::vector<char>* differs, Halo halo) {
+bool Multigrid::refresh(const GroupedRows& a, const std::vector<char>* differs, Halo halo) {
   Impl& s = *impl_;
   const bool same = s.coarsest && s.levels.size() > 1 && s.levels[0]->halo.own() == halo.own();
   if (!halo.all(same)) return false;

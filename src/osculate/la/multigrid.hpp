@@ -43,7 +43,7 @@ class Multigrid {
   ///
   /// Input      differs: groups in which it is not that of the last call, where both have the same
   ///            places for entries; null: they may have others
-  bool refresh(const GroupedRows<double>& a, const std::vector<char>* differs, Halo halo);
+  bool refresh(const GroupedRows& a, const std::vector<char>* differs, Halo halo);
   /// One cycle from zero, on own unknowns. False: no numbers came out.
   bool apply(Eigen::VectorXd& rhs_in_solution_out);
   /// Entries of all matrices over those of the finest.

@@ -115,6 +115,7 @@ FactorReport factor_symmetric_part(const SparseMatrix& k, std::uint64_t pattern_
     return none;
   }
   SparseMatrix half = k;  // only its upper triangle counts
+  half.mark.reset();
   const auto at = [](Index i) { return static_cast<std::size_t>(i); };
   std::vector<Index> next(k.row_start.begin(), k.row_start.end());  // of each row's columns
   for (Index i = 0; i < k.n; ++i)

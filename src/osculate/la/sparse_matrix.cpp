@@ -131,32 +131,60 @@ void MatrixBuilder::reserve_block(std::span<const Index> unknowns) {
 void MatrixBuilder::clear() {
   merge();
   std::fill(matrix_.value.begin(), matrix_.value.end(), 0.0);
+  matrix_.mark.reset();
 }
 
 void MatrixBuilder::clear(std::span<const Index> rows) {
   merge();
-  for (const Index i : rows)
+  for (const Index i : rows) {
+    touch(i);
     std::fill(matrix_.value.begin() + matrix_.row_start[at(i)],
               matrix_.value.begin() + matrix_.row_start[at(i) + 1], 0.0);
+  }
 }
 
 void MatrixBuilder::keep_values() {
   merge();
   kept_ = matrix_.value;
+  mark_ = std::make_shared<const char>();
+  begin_touching();
+}
+
+void MatrixBuilder::begin_touching() {
+  touched_.assign(at(matrix_.n), false);
+  matrix_.touched.clear();
+  matrix_.mark = mark_;
 }
 
 bool MatrixBuilder::restore_values() {
   merge();
   if (kept_.empty()) return false;
-  std::ranges::copy(kept_, matrix_.value.begin());
+  const auto copy = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    std::copy(kept_.begin() + begin, kept_.begin() + end, matrix_.value.begin() + begin);
+  };
+  if (matrix_.mark == nullptr)
+    copy(0, std::ssize(kept_));
+  else
+    for (const Index i : matrix_.touched)
+      copy(matrix_.row_start[at(i)], matrix_.row_start[at(i) + 1]);
+  begin_touching();
   return true;
+}
+
+void MatrixBuilder::forget_values() {
+  std::vector<double>().swap(kept_);
+  touched_.clear();
+  mark_.reset();
+  matrix_.mark.reset();
+  matrix_.touched.clear();
 }
 
 void MatrixBuilder::add(Index row, Index column, double value) {
   if (!here(row)) return;
-  if (double* entry = find(row, column))
+  if (double* entry = find(row, column)) {
+    touch(row);
     *entry += value;
-  else
+  } else
     aside_.push_back({{row, column}, value});
 }
 
@@ -217,6 +245,7 @@ void MatrixBuilder::add_to_row(Index row) {
   const std::span columns(matrix_.column.data() + begin, matrix_.column.data() + end);
   double* const sums = matrix_.value.data() + begin;
   if (!are_in_places(columns)) find_places(columns);
+  touch(row);
   for (std::size_t k = 0; k < places_.size(); ++k)
     if (places_[k] >= 0)
       sums[places_[k]] += row_[k];
@@ -286,7 +315,10 @@ void MatrixBuilder::merge() {
   const auto same = [&](const Place& a, const Place& b) { return key(a) == key(b); };
   grown_.erase(std::unique(grown_.begin() + before, grown_.end(), same), grown_.end());
   if (waits()) grow();
-  for (const Entry& entry : aside_) *find(entry.at.row, entry.at.column) += entry.value;
+  for (const Entry& entry : aside_) {
+    touch(entry.at.row);
+    *find(entry.at.row, entry.at.column) += entry.value;
+  }
   aside_.clear();
 }
 

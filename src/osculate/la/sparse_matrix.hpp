@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -20,6 +21,10 @@ struct SparseMatrix {
   /// Null: all of the matrix is here. Otherwise some of its rows, whole ones, each on one of these
   /// processes, and here those of the others are empty; vectors are whole everywhere.
   const core::Ranks* ranks = nullptr;
+  /// Not null: rows that `touched` does not name have the values of any other matrix of the same
+  /// mark (and pattern).
+  std::shared_ptr<const char> mark{};
+  std::vector<Index> touched{};  ///< each once
 };
 
 /// Entries on all processes.
@@ -72,9 +77,10 @@ class MatrixBuilder {
   void clear(std::span<const Index> rows);
   /// Remembers all values as they stand, for as long as the pattern stays.
   void keep_values();
-  /// Sets all values to those that were kept; false: there are none of this pattern.
+  /// Sets all values to those that were kept, in the rows that have been touched since; false:
+  /// there are none of this pattern.
   [[nodiscard]] bool restore_values();
-  void forget_values() { std::vector<double>().swap(kept_); }
+  void forget_values();
   /// Entries outside the pattern are kept aside until `finish`.
   void add(Index row, Index column, double value);
   /// Adds a dense block, entry by entry as `add` does, but searches hardly at all: columns that are
@@ -120,6 +126,12 @@ class MatrixBuilder {
   [[nodiscard]] bool has(std::span<const Index> rows, std::span<const Index> columns);
   [[nodiscard]] bool waits() const { return !blocks_.empty() || !pending_.empty(); }
   void order(std::span<const Index> columns);
+  void begin_touching();
+  void touch(Index row) {
+    if (kept_.empty() || touched_[static_cast<std::size_t>(row)]) return;
+    touched_[static_cast<std::size_t>(row)] = true;
+    matrix_.touched.push_back(row);
+  }
   [[nodiscard]] bool are_in_places(std::span<const Index> row) const;
   void find_places(std::span<const Index> row);
   /// Adds `row_`.
@@ -129,6 +141,8 @@ class MatrixBuilder {
 
   SparseMatrix matrix_;
   std::vector<double> kept_;           ///< by `keep_values`; empty: none
+  std::vector<bool> touched_;          ///< by row, since then; `matrix_` lists them
+  std::shared_ptr<const char> mark_;   ///< of what was kept; `matrix_` has none once all is cleared
   std::vector<bool> mine_;             ///< by row; empty: all
   std::vector<Block> blocks_;          ///< reserved, not yet in the pattern
   std::vector<Index> block_unknowns_;  ///< of these

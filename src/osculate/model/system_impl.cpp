@@ -369,10 +369,10 @@ void BasicSystem<Dim>::Impl::assemble_terms(const State& committed, const Trial&
   last.clear(dofs.dofs(), constraints.count());
   if (with_tangent) {
     reserve_pattern();
-    if (bulk.which == Cells::all)
-      builder.clear();
-    else
+    if (bulk.which != Cells::all)
       builder.clear(changing);
+    else if (!on(Term::bulk))
+      builder.clear();
   }
   const std::vector<Vec<Dim>> x = positions(now.u);
   if (motion) motion->begin_increment(committed, fraction, time_between(committed, fraction));

@@ -38,12 +38,13 @@ TEST(GroupedRows, HaveTheBitsOfProductsRowByRow) {
   const Eigen::VectorXd x = values(23);
   Eigen::VectorXd expected, y, by_two;
   multiply(a, x, one, expected);
-  const GroupedRows<double> grouped(a, of_all_sizes, one);
+  const GroupedRows grouped(a, of_all_sizes, one);
   grouped.multiply(x, one, y);
   grouped.multiply(x, two, by_two);
   EXPECT_EQ(y, expected);
   EXPECT_EQ(by_two, expected);
   EXPECT_GT(grouped.entries(), static_cast<std::size_t>(a.nonZeros()));
+  EXPECT_EQ(grouped.largest_entries(), Eigen::MatrixXd(a).cwiseAbs().rowwise().maxCoeff());
 }
 
 TEST(GroupedRows, BitsDoNotDependOnThreads) {
@@ -54,7 +55,7 @@ TEST(GroupedRows, BitsDoNotDependOnThreads) {
   const CompressedRows a = compressed(block.matrix(), Symmetry::unsymmetric);
   const Eigen::VectorXd x = values(block.unknowns());
   core::Crew one(1), three(3);
-  const GroupedRows<double> grouped(a, groups, one), again(a, groups, three);
+  const GroupedRows grouped(a, groups, one), again(a, groups, three);
   Eigen::VectorXd expected, y;
   grouped.multiply(x, one, expected);
   EXPECT_LT((a * x - expected).norm(), 1e-14 * expected.norm());
@@ -69,27 +70,9 @@ TEST(GroupedRows, GiveBackTheEntriesThatTheyWereMadeOf) {
     groups.push_back(std::min(groups.back() + size, block.unknowns()));
   const CompressedRows a = compressed(block.matrix(), Symmetry::unsymmetric);
   core::Crew crew(1);
-  const CompressedRows again = GroupedRows<double>(a, groups, crew).as_rows();
+  const CompressedRows again = GroupedRows(a, groups, crew).as_rows();
   EXPECT_EQ(Eigen::MatrixXd(again), Eigen::MatrixXd(a));
   EXPECT_EQ(again.nonZeros(), a.nonZeros());
-}
-
-TEST(GroupedRows, OfSinglePrecisionAreALinearMapNearToTheMatrix) {
-  core::Crew one(1);
-  for (const double unit : {1.0, 1e60, 1e-60}) {  // beyond the range of float
-    const CompressedRows a = unit * irregular(of_all_sizes, 23);
-    const GroupedRows<float> grouped(a, of_all_sizes, one);
-    const Eigen::VectorXd x = values(23), z = values(23).reverse();
-    Eigen::VectorXd exact, ax, az, of_sum;
-    multiply(a, x, one, exact);
-    grouped.multiply(x, one, ax);
-    grouped.multiply(z, one, az);
-    grouped.multiply(3 * x - z, one, of_sum);
-    const double size = Eigen::MatrixXd(a).norm() * x.norm();
-    EXPECT_LT((ax - exact).norm(), std::ldexp(size, -24));
-    EXPECT_GT((ax - exact).norm(), 0);
-    EXPECT_LT((of_sum - (3 * ax - az)).norm(), 1e-15 * size);
-  }
 }
 
 /// What `GroupedRows::update` reads.
@@ -112,18 +95,12 @@ TEST(GroupedRows, TakeTheValuesOfAMatrixWhoseEntriesHavePlaces) {
   Eigen::VectorXd expected, y;
   multiply(b, x, one, expected);
   for (core::Crew* crew : {&one, &two}) {
-    GroupedRows<double> grouped(a, of_all_sizes, *crew);
-    GroupedRows<float> rounded(grouped);
+    GroupedRows grouped(a, of_all_sizes, *crew);
     std::vector<char> differs;
     ASSERT_TRUE(grouped.update(rows_of(b), *crew, differs));
     EXPECT_EQ(differs, (std::vector<char>{0, 1, 0, 0, 0, 1, 0, 0, 1}));
     grouped.multiply(x, *crew, y);
     EXPECT_EQ(y, expected);
-    rounded.copy(grouped, differs);
-    Eigen::VectorXd by_copy, anew;
-    rounded.multiply(x, *crew, by_copy);
-    GroupedRows<float>(b, of_all_sizes, *crew).multiply(x, *crew, anew);
-    EXPECT_EQ(by_copy, anew);
     ASSERT_TRUE(grouped.update(rows_of(a), *crew, differs)) << "what became zero keeps its place";
     EXPECT_EQ(Eigen::MatrixXd(grouped.as_rows()), Eigen::MatrixXd(a));
     ASSERT_TRUE(grouped.update(rows_of(a), *crew, differs));
@@ -143,7 +120,7 @@ TEST(GroupedRows, TakeNoEntryThatHasNoPlace) {
         taken = taken || a.coeff(i, column) != 0;
       CompressedRows b = a;
       b.coeffRef(row, column) = 3;
-      GroupedRows<double> grouped(a, of_all_sizes, crew);
+      GroupedRows grouped(a, of_all_sizes, crew);
       std::vector<char> differs;
       EXPECT_EQ(grouped.update(rows_of(b), crew, differs), taken) << row << ", " << column;
     }
@@ -152,7 +129,7 @@ TEST(GroupedRows, TakeNoEntryThatHasNoPlace) {
 TEST(GroupedRows, KnowTheBlocksOfTheirDiagonal) {
   core::Crew crew(1);
   const CompressedRows a = irregular(of_all_sizes, 31);
-  const GroupedRows<double> grouped(a, of_all_sizes, crew);
+  const GroupedRows grouped(a, of_all_sizes, crew);
   const Eigen::MatrixXd dense(a);
   for (std::size_t g = 0; g + 1 < of_all_sizes.size(); ++g) {
     const Index begin = of_all_sizes[g], size = of_all_sizes[g + 1] - begin;

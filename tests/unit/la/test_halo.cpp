@@ -114,7 +114,7 @@ TEST_P(Halos, ProductsAreThoseOfAllRows) {
       Eigen::VectorXd x = here.own(x_), y;
       here.halo.update(x);
       core::Crew crew(1);
-      GroupedRows<double>(here.a, here.nodes(), crew).multiply(x, crew, y);
+      GroupedRows(here.a, here.nodes(), crew).multiply(x, crew, y);
       const Eigen::VectorXd found = here.halo.gathered(y)(here.dealt.number);
       EXPECT_LT((found - expected).norm(), 1e-14 * expected.norm());
       const double length = here.halo.norm(x);

@@ -140,6 +140,42 @@ TEST(MatrixBuilder, kept_values_come_back_as_long_as_the_pattern_stays) {
   EXPECT_FALSE(m.restore_values());
 }
 
+TEST(MatrixBuilder, rows_that_are_not_touched_have_the_values_of_their_mark) {
+  MatrixBuilder m(4);
+  EXPECT_EQ(m.finish().mark, nullptr);
+  m.add(0, 1, 3.0);
+  m.add(2, 2, 0.1);
+  m.keep_values();
+  const SparseMatrix kept = m.finish();
+  ASSERT_NE(kept.mark, nullptr);
+  EXPECT_TRUE(kept.touched.empty());
+  const double block[] = {1, 2, 3, 4};
+  m.add(3, 3, 5.0);
+  m.add_block(std::vector<Index>{0, 1}, block, 2);  // (1, 0) is in no place: merged by `finish`
+  EXPECT_NE(m.finish().mark, kept.mark) << "the pattern has grown";
+  m.keep_values();
+  const SparseMatrix again = m.finish();
+  EXPECT_NE(again.mark, kept.mark);
+  m.add(3, 3, 1.0);
+  m.add(3, 3, 1.0);
+  m.add_block(std::vector<Index>{0, 1}, block, 2);
+  EXPECT_EQ(m.finish().mark, again.mark);
+  EXPECT_EQ(m.finish().touched, (std::vector<Index>{3, 0, 1}));
+  ASSERT_TRUE(m.restore_values());
+  EXPECT_EQ(m.finish().value, again.value);
+  EXPECT_TRUE(m.finish().touched.empty());
+  m.clear(std::vector<Index>{2});
+  EXPECT_EQ(m.finish().touched, (std::vector<Index>{2}));
+  m.clear();
+  EXPECT_EQ(m.finish().mark, nullptr) << "no row has what was kept";
+  m.add(3, 3, 1.0);
+  ASSERT_TRUE(m.restore_values());
+  EXPECT_EQ(m.finish().value, again.value);
+  EXPECT_EQ(m.finish().mark, again.mark);
+  m.forget_values();
+  EXPECT_EQ(m.finish().mark, nullptr);
+}
+
 TEST(SparseMatrix, product_equals_the_dense_one) {
   MatrixBuilder m = test::grid(5, 3, true);
   const SparseMatrix& k = m.finish();

@@ -149,7 +149,9 @@ bool BulkTerm<Dim>::add_cells(const State& committed, const State& trial, double
   // What most cells add to the matrix is the same each time: it is kept in sum.
   const bool apart = to.with_tangent && which == Cells::all && !inertia && !constant.empty() &&
                      constant.size() >= others.size();
-  if (apart && !to.builder.restore_values()) {
+  const bool restored = apart && to.builder.restore_values();
+  if (to.with_tangent && which == Cells::all && !restored) to.builder.clear();
+  if (apart && !restored) {
     std::vector<std::size_t> some;
     for (std::size_t i = 0; i < cells.count; ++i)
       if (stays[cells[i]] != 0) some.push_back(cells[i]);
