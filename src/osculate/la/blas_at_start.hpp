@@ -10,6 +10,7 @@ namespace osculate::la {
 ///   those of 2004 then (SSE3), and a factorisation takes half as long again and more. Not where
 ///   OPENBLAS_CORETYPE in the environment says which to take.
 ///
+/// Decision   docs/decisions/114-routines-for-new-processors.md
 /// Tested by  tests/unit/la/test_blas_at_start.cpp
 void prepare_blas();
 

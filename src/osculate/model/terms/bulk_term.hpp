@@ -66,8 +66,8 @@ struct BulkTerm {
     linear.evaluate(job, model, *j.section, j.cell, u, j.memory.of(memory, next, duration),
                     with_tangent, out);
   }
-  /// Adds what `which` says; all cells begin a matrix anew. False: a cell cannot be evaluated, `out`
-  /// says why. `inertia` may be null.
+  /// Adds what `which` says; all cells begin a matrix anew. False: a cell cannot be evaluated,
+  /// `out` says why. `inertia` may be null.
   bool add(const State& committed, const State& trial, double duration,
            const CellInertia<Dim>* inertia, Assembly<Dim>& to, solve::Evaluation& out);
   /// After evaluations that were shared: what the points of all cells remember.
