@@ -35,8 +35,9 @@ void take_routines_of_processor() {
       gotoblas_dynamic_quit == nullptr || std::getenv(choice) != nullptr)
     return;
   const std::string_view taken = openblas_get_corename();
+  const bool unknown = taken == "Prescott" || taken == "Barcelona";  // of Intel, of AMD
   const char* const better = like_this_one();
-  if (taken != "Prescott" || better == nullptr) return;
+  if (!unknown || better == nullptr) return;
   (void)setenv(choice, better, 1);
   gotoblas_dynamic_quit();
   gotoblas_dynamic_init();

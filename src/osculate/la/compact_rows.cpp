@@ -17,7 +17,7 @@ namespace {
 
 constexpr double most = std::numeric_limits<std::int16_t>::max();
 constexpr Index most_rows = 3;    ///< of a bundle
-constexpr std::size_t lanes = 8;  ///< that are read at once, also behind the last number
+constexpr std::size_t lanes = 8;  ///< that are read at once, of x also behind the last one
 constexpr std::size_t bundles_at_least = 64;  ///< while a thread is told of them
 
 // Registers where the processor has them, and inlined where not.
@@ -124,7 +124,7 @@ CompactRows::CompactRows(const GroupedRows& a, core::Crew& crew, const Eigen::Ve
       value += as_size(rows) * as_size(columns);
     }
   }
-  values_.assign(value + lanes, 0);
+  values_.assign(value, 0);
   crew.share_runs(bundles_.size(), bundles_at_least, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) take(a, bundles_[b]);
   });

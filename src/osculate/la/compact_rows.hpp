@@ -27,7 +27,6 @@ class CompactRows {
   /// Takes the values of some groups from a matrix with the same places for entries.
   void copy(const GroupedRows& from, const std::vector<char>& groups, core::Crew& crew);
   void multiply(const Eigen::VectorXd& x, core::Crew& crew, Eigen::VectorXd& y) const;
-  [[nodiscard]] std::size_t entries() const { return values_.size(); }
 
  private:
   /// Some rows of a group, whose products are made at once.

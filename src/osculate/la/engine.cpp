@@ -331,7 +331,8 @@ class MultigridEngine final : public Engine {
         for (CompressedRows::InnerIterator entry(a, i); entry; ++entry)
           each(static_cast<Index>(entry.col()), entry.value());
       };
-      fits = may && others == part_.halo.others() && a_.update(rows, *crew_, differs);
+      fits =
+          part_.halo.all(may && others == part_.halo.others() && a_.update(rows, *crew_, differs));
       if (!fits) take(a, places);
     }
     if (fits) take_diagonal(&differs);

@@ -36,6 +36,7 @@ void take(const char* processor) {
   of_library<void()>("gotoblas_dynamic_init")();
 }
 
+#ifdef __x86_64__
 TEST(BlasAtStart, AProcessorThatTheLibraryDoesNotKnowGetsItsRegistersRoutines) {
   if (of_library<void()>("gotoblas_dynamic_init") == nullptr)
     GTEST_SKIP() << "a library for one kind of processor";
@@ -43,7 +44,7 @@ TEST(BlasAtStart, AProcessorThatTheLibraryDoesNotKnowGetsItsRegistersRoutines) {
     GTEST_SKIP() << "a processor as of 2004";
   const std::string before = taken();
   take("Prescott");  // what the library takes for any that it does not know
-  ASSERT_EQ(taken(), "Prescott");
+  EXPECT_EQ(taken(), "Prescott");
   prepare_blas();
   EXPECT_EQ(taken(), "Prescott") << "somebody has asked for it";
   unsetenv("OPENBLAS_CORETYPE");
@@ -57,6 +58,7 @@ TEST(BlasAtStart, AProcessorThatTheLibraryDoesNotKnowGetsItsRegistersRoutines) {
   unsetenv("OPENBLAS_CORETYPE");
   EXPECT_EQ(taken(), before);
 }
+#endif
 
 }  // namespace
 }  // namespace osculate::la

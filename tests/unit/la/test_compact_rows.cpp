@@ -7,31 +7,16 @@
 #include <vector>
 
 #include "elastic_block.hpp"
+#include "irregular_rows.hpp"
 
 namespace osculate::la {
 namespace {
 
 using test::ElasticBlock;
+using test::irregular;
+using test::of_all_sizes;
+using test::waving;
 
-/// Rows of very different size, whose columns differ and are not all side by side.
-CompressedRows irregular(const GroupStarts& groups, Index columns) {
-  std::vector<Eigen::Triplet<double, Index>> entries;
-  for (Index i = 0; i < groups.back(); ++i)
-    for (Index j = 0; j < columns; ++j)
-      if ((i * 7 + j * j) % 5 < 3 && (i + j) % 11 != 0)
-        entries.emplace_back(i, j, std::sin(1.3 * i + 0.7 * j) * std::pow(10.0, i % 4));
-  CompressedRows a(groups.back(), columns);
-  a.setFromTriplets(entries.begin(), entries.end());
-  return a;
-}
-
-Eigen::VectorXd values(Eigen::Index n) {
-  Eigen::VectorXd v(n);
-  for (Eigen::Index i = 0; i < n; ++i) v[i] = std::sin(1.7 * static_cast<double>(i * i % 1009));
-  return v;
-}
-
-const GroupStarts of_all_sizes{0, 3, 4, 6, 12, 12, 16, 21, 28, 31};
 constexpr Index columns = 47;
 
 /// How far products may be off: half of a step of each entry, and the sums of single precision.
@@ -52,7 +37,7 @@ TEST(CompactRows, AreNearToTheMatrixRowByRow) {
     const CompressedRows a = unit * irregular(of_all_sizes, columns);
     const CompactRows compact(GroupedRows(a, of_all_sizes, crew), crew);
     for (const double of_x : {1.0, 1e70, 1e-70}) {
-      const Eigen::VectorXd x = of_x * values(columns);
+      const Eigen::VectorXd x = of_x * waving(columns);
       Eigen::VectorXd exact, y;
       multiply(a, x, crew, exact);
       compact.multiply(x, crew, y);
@@ -92,7 +77,7 @@ TEST(CompactRows, BitsDoNotDependOnThreads) {
   ASSERT_GT(groups.size(), 300U) << "for some runs of groups";
   core::Crew one(1), three(3);
   const GroupedRows a(compressed(block.matrix(), Symmetry::unsymmetric), groups, one);
-  const Eigen::VectorXd x = values(block.unknowns());
+  const Eigen::VectorXd x = waving(block.unknowns());
   Eigen::VectorXd by_one, by_three, exact;
   CompactRows(a, one).multiply(x, one, by_one);
   CompactRows(a, three).multiply(x, three, by_three);
@@ -109,7 +94,7 @@ TEST(CompactRows, TakeGroupsThatHaveChanged) {
   const GroupedRows changed(b, of_all_sizes, crew);
   CompactRows compact(GroupedRows(a, of_all_sizes, crew), crew);
   compact.copy(changed, {0, 1, 0, 0, 0, 1, 0, 0, 1}, crew);
-  const Eigen::VectorXd x = values(columns);
+  const Eigen::VectorXd x = waving(columns);
   Eigen::VectorXd copied, anew;
   compact.multiply(x, crew, copied);
   CompactRows(changed, crew).multiply(x, crew, anew);
@@ -119,7 +104,7 @@ TEST(CompactRows, TakeGroupsThatHaveChanged) {
 TEST(CompactRows, MakeNoNumbersOfWhatIsNone) {
   core::Crew crew(1);
   CompressedRows a = irregular(of_all_sizes, columns);
-  const Eigen::VectorXd x = values(columns);
+  const Eigen::VectorXd x = waving(columns);
   Eigen::VectorXd y;
   a.valuePtr()[a.outerIndexPtr()[16]] = std::numeric_limits<double>::infinity();
   CompactRows(GroupedRows(a, of_all_sizes, crew), crew).multiply(x, crew, y);

@@ -6,36 +6,20 @@
 #include <cmath>
 
 #include "elastic_block.hpp"
+#include "irregular_rows.hpp"
 
 namespace osculate::la {
 namespace {
 
 using test::ElasticBlock;
-
-/// Groups of one to seven rows, whose columns differ and are not all side by side.
-CompressedRows irregular(const GroupStarts& groups, Index columns) {
-  std::vector<Eigen::Triplet<double, Index>> entries;
-  for (Index i = 0; i < groups.back(); ++i)
-    for (Index j = 0; j < columns; ++j)
-      if ((i * 7 + j * j) % 5 < 2 && (i + j) % 11 != 0)
-        entries.emplace_back(i, j, std::sin(1.3 * i + 0.7 * j) * std::pow(10.0, i % 3));
-  CompressedRows a(groups.back(), columns);
-  a.setFromTriplets(entries.begin(), entries.end());
-  return a;
-}
-
-Eigen::VectorXd values(Eigen::Index n) {
-  Eigen::VectorXd v(n);
-  for (Eigen::Index i = 0; i < n; ++i) v[i] = std::sin(1.7 * static_cast<double>(i * i % 1009));
-  return v;
-}
-
-const GroupStarts of_all_sizes{0, 3, 4, 6, 12, 12, 16, 21, 28, 31};
+using test::irregular;
+using test::of_all_sizes;
+using test::waving;
 
 TEST(GroupedRows, HaveTheBitsOfProductsRowByRow) {
   core::Crew one(1), two(2);
   const CompressedRows a = irregular(of_all_sizes, 23);
-  const Eigen::VectorXd x = values(23);
+  const Eigen::VectorXd x = waving(23);
   Eigen::VectorXd expected, y, by_two;
   multiply(a, x, one, expected);
   const GroupedRows grouped(a, of_all_sizes, one);
@@ -53,7 +37,7 @@ TEST(GroupedRows, BitsDoNotDependOnThreads) {
   while (groups.back() < block.unknowns()) groups.push_back(groups.back() + 3);
   ASSERT_GT(groups.size(), 300U) << "for some runs of groups";
   const CompressedRows a = compressed(block.matrix(), Symmetry::unsymmetric);
-  const Eigen::VectorXd x = values(block.unknowns());
+  const Eigen::VectorXd x = waving(block.unknowns());
   core::Crew one(1), three(3);
   const GroupedRows grouped(a, groups, one), again(a, groups, three);
   Eigen::VectorXd expected, y;
@@ -91,7 +75,7 @@ TEST(GroupedRows, TakeTheValuesOfAMatrixWhoseEntriesHavePlaces) {
   *first_of(3) = 7;       // alone in its group
   first_of(15)[1] = 0;    // the last row of a group
   first_of(30)[2] *= -2;  // of the last group
-  const Eigen::VectorXd x = values(23);
+  const Eigen::VectorXd x = waving(23);
   Eigen::VectorXd expected, y;
   multiply(b, x, one, expected);
   for (core::Crew* crew : {&one, &two}) {

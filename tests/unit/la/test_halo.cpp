@@ -309,14 +309,16 @@ TEST_P(Halos, TheEngineTakesEntriesThatComeAndGo) {
     const auto rows = [&](const CompressedRows& all) {
       return rows_of(stored(all), owner, *some_rows.ranks);
     };
-    EXPECT_TRUE(engine->build(rows(plain), Symmetry::unsymmetric, places));
-    expect_solved(plain);
-    for (const CompressedRows* const next : {&joined, &joined, &plain, &joined}) {
-      EXPECT_TRUE(engine->refresh(rows(*next), Symmetry::unsymmetric, places));
-      expect_solved(*next);
+    for (const Symmetry kind : {Symmetry::unsymmetric, Symmetry::positive_definite}) {
+      EXPECT_TRUE(engine->build(rows(plain), kind, places));
+      expect_solved(plain);
+      for (const CompressedRows* const next : {&joined, &joined, &plain, &joined}) {
+        EXPECT_TRUE(engine->refresh(rows(*next), kind, places));
+        expect_solved(*next);
+      }
+      EXPECT_TRUE(engine->build_again(places));
+      expect_solved(joined);
     }
-    EXPECT_TRUE(engine->build_again(places));
-    expect_solved(joined);
   });
 }
 
