@@ -9,13 +9,14 @@
 #include <new>
 
 #include "osculate/core/memory.hpp"
+#include "osculate/core/processor.hpp"
 
 namespace osculate::app {
 namespace {
 
 bool cpu_supported() {
 #if defined(__AVX2__) && defined(__x86_64__)
-  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  return core::has_avx2();
 #else
   return true;
 #endif

@@ -8,6 +8,7 @@
 #include "osculate/cell/cell_type.hpp"
 #include "osculate/contact.hpp"
 #include "osculate/core/memory.hpp"
+#include "osculate/core/processor.hpp"
 #include "osculate/core/version.hpp"
 #include "osculate/io/atomic_file.hpp"
 #include "osculate/la/blas_at_start.hpp"
@@ -61,7 +62,7 @@ py::dict cells() {
 PYBIND11_MODULE(_core, m) {
   using namespace osculate;  // NOLINT(google-build-using-namespace)
 #if defined(__AVX2__) && defined(__x86_64__)
-  if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma"))
+  if (!core::has_avx2())
     throw std::runtime_error(
         "osculate: this build needs a CPU with AVX2 and FMA (x86-64-v3); configure with "
         "-DOSCULATE_BASELINE=ON for older ones");

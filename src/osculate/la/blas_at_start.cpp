@@ -3,6 +3,8 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "osculate/core/processor.hpp"
+
 extern "C" {
 void openblas_set_num_threads(int);
 // What the library calls before a fork. Not every build of it has threads.
@@ -19,13 +21,8 @@ namespace {
 /// The processor, among those that the library knows, that has the registers of this one; null:
 /// none that is better than what it takes by itself.
 const char* like_this_one() {
-#ifdef __x86_64__
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-      __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw") &&
-      __builtin_cpu_supports("avx512cd"))
-    return "SkylakeX";
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return "Haswell";
-#endif
+  if (core::has_avx512()) return "SkylakeX";
+  if (core::has_avx2()) return "Haswell";
   return nullptr;
 }
 

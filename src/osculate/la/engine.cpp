@@ -253,8 +253,7 @@ class MultigridEngine final : public Engine {
     part_.dealt = dealt_as(k);
     if (!build(take_part(k, symmetry), symmetry, places)) return false;
     take(take_part(k, symmetry), places);  // not before: the coarser models take most memory
-    mark_ = k.mark;
-    touched_ = k.touched;
+    remember(k);
     in_step_ = true;
     return true;
   }
@@ -336,9 +335,12 @@ class MultigridEngine final : public Engine {
       if (!fits) take(a, places);
     }
     if (fits) take_diagonal(&differs);
+    remember(k);
+    return fits;
+  }
+  void remember(const SparseMatrix& k) {
     mark_ = k.mark;
     touched_ = k.touched;
-    return fits;
   }
   /// Groups of rows that this matrix or the last one that was taken has touched; nothing, where
   /// that says nothing of the others.

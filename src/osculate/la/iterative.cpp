@@ -28,13 +28,12 @@ struct Iterative::Impl {
   std::uint64_t version = 0;
   Symmetry symmetry = Symmetry::unsymmetric;
   IterativeWork work;
+  std::shared_ptr<const char> finite_mark{};  ///< of a matrix of numbers
 
   explicit Impl(const MumpsOptions& of) : direct(of), options(of) {}
   ~Impl() = default;
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
-
-  std::shared_ptr<const char> finite_mark{};  ///< of a matrix of numbers
 
   [[nodiscard]] bool suits(const SparseMatrix& k);
   [[nodiscard]] bool are_numbers(const SparseMatrix& k);

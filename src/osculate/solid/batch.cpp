@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 
+#include "osculate/core/processor.hpp"
 #include "osculate/solid/batch_points.hpp"
 #include "osculate/solid/points.hpp"
 #include "osculate/solid/reduced.hpp"
@@ -207,15 +208,7 @@ bool batch_forces(const Batch<Dim>& batch, const Pack* numbers, const Pack* u, P
   }
 }
 
-bool has_eight_lanes() {
-#ifdef __x86_64__
-  return built_for_eight && __builtin_cpu_supports("avx512f") &&
-         __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
-         __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd");
-#else
-  return false;
-#endif
-}
+bool has_eight_lanes() { return built_for_eight && core::has_avx512(); }
 
 template <int Dim>
 std::optional<EightCells> eight_cells(const Batch<Dim>& batch) {

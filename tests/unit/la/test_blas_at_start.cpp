@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <string>
 
+#include "osculate/core/processor.hpp"
+
 namespace osculate::la {
 namespace {
 
@@ -36,12 +38,10 @@ void take(const char* processor) {
   of_library<void()>("gotoblas_dynamic_init")();
 }
 
-#ifdef __x86_64__
 TEST(BlasAtStart, AProcessorThatTheLibraryDoesNotKnowGetsItsRegistersRoutines) {
   if (of_library<void()>("gotoblas_dynamic_init") == nullptr)
     GTEST_SKIP() << "a library for one kind of processor";
-  if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma"))
-    GTEST_SKIP() << "a processor as of 2004";
+  if (!core::has_avx2()) GTEST_SKIP() << "a processor as of 2004";
   const std::string before = taken();
   take("Prescott");  // what the library takes for any that it does not know
   EXPECT_EQ(taken(), "Prescott");
@@ -58,7 +58,6 @@ TEST(BlasAtStart, AProcessorThatTheLibraryDoesNotKnowGetsItsRegistersRoutines) {
   unsetenv("OPENBLAS_CORETYPE");
   EXPECT_EQ(taken(), before);
 }
-#endif
 
 }  // namespace
 }  // namespace osculate::la
