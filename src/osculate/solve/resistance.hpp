@@ -26,8 +26,8 @@ concept KnowsFreeMotions = requires(const S s, const typename S::Trial& trial,
 /// Systems with multipliers whose constraints may say the same thing twice, as two nodes of a rigid
 /// face that stick do: their tangent is singular, although the motion is not in doubt.
 ///
-/// Formula    the rows G du - D dlambda = -g of the multipliers get D = s diag(G diag(K)^-1
-///            G^T), s 1e-8 of contact, 1e-2 of conditions of nodes:
+/// Formula    the rows G du - D dlambda = -g of the multipliers get D = 1e-8 diag(G diag(K)^-1
+/// G^T):
 ///            a step of the proximal point method. The residual stays what it is, so that the
 ///            constraints hold exactly where the iterations end; multipliers share what they cannot
 ///            tell apart

@@ -244,16 +244,13 @@ MultiplierRows multiplier_rows(const la::SparseMatrix& k, Index begin, Index end
 
 template <int Dim>
 void ConstraintTerm<Dim>::soften(la::MatrixBuilder& builder) const {
-  // Conditions of nodes are curved: before the iterations end two that say the same differ, and
-  // multipliers are off by that over D.
-  constexpr double of_contact = 1e-8, of_conditions = 1e-2;
+  constexpr double share = 1e-8;
   const MultiplierRows rows = multiplier_rows(builder.finish(), begin, end);
   for (std::size_t i = 0; i + 1 < rows.start.size(); ++i) {
     double compliance = 0;
     for (std::size_t e = rows.start[i]; e < rows.start[i + 1]; ++e)
       if (rows.stiffness[e] > 0) compliance += rows.along[e] * rows.across[e] / rows.stiffness[e];
     const Index u = begin + static_cast<Index>(i);
-    const double share = u < of_nodes ? of_contact : of_conditions;
     if (compliance != 0.0) builder.add(u, u, -share * compliance);
   }
 }
