@@ -1,6 +1,7 @@
 """The checks of tools/ must be able to fail: each is given a small tree with one thing wrong."""
 import importlib.machinery
 import importlib.util
+import json
 import pathlib
 import sys
 import tempfile
@@ -24,6 +25,7 @@ def script(name):
     return module
 
 
+alone = script("alone")
 mutate = script("mutate")
 batches = script("batches")
 LAYERS = {"core": [], "cell": ["core"]}
@@ -40,6 +42,20 @@ class Tree(unittest.TestCase):
         path = self.root / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text)
+
+
+class Alone(Tree):
+    def test_a_source_that_lives_by_its_neighbour_is_found(self):
+        own, other = "int helper() { return 1; }\n", "int user() { return helper(); }\n"
+        self.write("a.cpp", own)
+        self.write("b.cpp", other)
+        self.write("Unity/unity_0_cxx.cxx", "".join(f'#include "{self.root / name}"\n' for name in ("a.cpp", "b.cpp")))
+        self.write("compile_commands.json", json.dumps([{"directory": str(self.root), "file": str(
+            self.root / "Unity/unity_0_cxx.cxx"), "command": "c++ -std=c++20 -o batch.o -c Unity/unity_0_cxx.cxx"}]))
+        known = alone.commands(self.root)
+        found = {source.name: alone.complaint(source, *command) for source, command in known.items()}
+        self.assertEqual(found["a.cpp"], "")
+        self.assertIn("helper", found["b.cpp"])
 
 
 class Layers(Tree):

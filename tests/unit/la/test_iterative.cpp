@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "elastic_block.hpp"
+#include "osculate/la/compressed_rows.hpp"
 
 namespace osculate::la {
 namespace {
