@@ -354,38 +354,44 @@ ByRow by_row(std::size_t rows, const Each& each) {
   return out;
 }
 
-/// A row with further columns, sorted, behind the others of `to`.
-void append_row(const SparseMatrix& from, std::size_t row, std::span<const Index> fresh,
-                SparseMatrix& to) {
-  auto next = fresh.begin();
-  const auto copy = [&](auto& items, const auto& source) {
-    items.insert(items.end(), source.begin() + from.row_start[row],
-                 source.begin() + from.row_start[row + 1]);
+/// Gives rows further columns, of a value of zero, where the entries stand: from the last row on,
+/// which is moved farthest. A thirty-second of them is kept as room for what comes later.
+///
+/// Requires   `fresh` of a row sorted, and not in it; `kept` empty, or one for each entry
+void insert(const ByRow& fresh, SparseMatrix& k, std::vector<double>& kept) {
+  constexpr std::size_t room = 32;
+  const std::size_t size = k.column.size() + fresh.items.size();
+  const auto resize = [&](auto& of) {
+    if (of.capacity() < size) of.reserve(size + size / room);
+    of.resize(size);
   };
-  if (fresh.empty()) {
-    copy(to.column, from.column);
-    copy(to.value, from.value);
-    to.row_start[row + 1] = static_cast<Index>(to.column.size());
-    return;
+  resize(k.column);
+  resize(k.value);
+  if (!kept.empty()) resize(kept);
+  const auto put = [&](std::size_t to, Index column, double value, double kept_value) {
+    k.column[to] = column;
+    k.value[to] = value;
+    if (!kept.empty()) kept[to] = kept_value;
+  };
+  for (std::size_t i = at(k.n), f = fresh.items.size(); f > 0 && i-- > 0;) {
+    const std::size_t begin = at(k.row_start[i]);
+    std::size_t end = at(k.row_start[i + 1]), to = end + f;
+    k.row_start[i + 1] = static_cast<Index>(to);
+    while (end > begin || f > fresh.start[i])
+      if (end == begin || (f > fresh.start[i] && fresh.items[f - 1] > k.column[end - 1])) {
+        put(--to, fresh.items[--f], 0.0, 0.0);
+      } else {
+        --end;
+        put(--to, k.column[end], k.value[end], kept.empty() ? 0.0 : kept[end]);
+      }
   }
-  for (Index e = from.row_start[row]; e < from.row_start[row + 1]; ++e) {
-    for (; next != fresh.end() && *next < from.column[at(e)]; ++next) {
-      to.column.push_back(*next);
-      to.value.push_back(0.0);
-    }
-    to.column.push_back(from.column[at(e)]);
-    to.value.push_back(from.value[at(e)]);
-  }
-  to.column.insert(to.column.end(), next, fresh.end());
-  to.value.resize(to.column.size(), 0.0);
-  to.row_start[row + 1] = static_cast<Index>(to.column.size());
 }
 
 }  // namespace
 
-/// Unites the pattern with what waits. Neither kind is all in the pattern before, so it grows.
+/// Unites the pattern with what waits. Neither kind is all in the pattern before, so it grows. What
+/// was kept is of the new pattern then.
 void MatrixBuilder::grow() {
-  forget_values();
   const auto rows = at(matrix_.n);
   const ByRow blocks = by_row(rows, [&](const auto& take) {
     for (std::size_t b = 0; b < blocks_.size(); ++b)
@@ -395,37 +401,31 @@ void MatrixBuilder::grow() {
   const ByRow single = by_row(rows, [&](const auto& take) {
     for (const Place& place : pending_) take(place.row, place.column);
   });
-  SparseMatrix grown;
-  grown.n = matrix_.n;
-  grown.ranks = matrix_.ranks;
-  grown.row_start.assign(rows + 1, 0);
-  std::size_t fresh_at_most = pending_.size();
-  for (const Block& b : blocks_) fresh_at_most += (b.columns - b.rows) * (b.end - b.columns);
-  grown.column.reserve(matrix_.column.size() + fresh_at_most / 2);  // neighbours share columns
-  grown.value.reserve(grown.column.capacity());
-  std::vector<Index> seen(rows, -1), fresh;  // the row in which a column was seen last
+  ByRow fresh{{0}, {}};
+  std::vector<Index> seen(rows, -1);  // the row in which a column was seen last
   for (std::size_t i = 0; i < rows; ++i) {
-    fresh.clear();
     const auto row = static_cast<Index>(i);
     const bool grows =
         blocks.start[i] < blocks.start[i + 1] || single.start[i] < single.start[i + 1];
     for (Index e = matrix_.row_start[i]; grows && e < matrix_.row_start[i + 1]; ++e)
       seen[at(matrix_.column[at(e)])] = row;
     const auto take = [&](Index column) {
-      if (std::exchange(seen[at(column)], row) != row) fresh.push_back(column);
+      if (std::exchange(seen[at(column)], row) != row) fresh.items.push_back(column);
     };
     for (std::size_t k = blocks.start[i]; k < blocks.start[i + 1]; ++k) {
       const Block& block = blocks_[at(blocks.items[k])];
       for (std::size_t c = block.columns; c < block.end; ++c) take(block_unknowns_[c]);
     }
     for (std::size_t k = single.start[i]; k < single.start[i + 1]; ++k) take(single.items[k]);
-    std::sort(fresh.begin(), fresh.end());
-    append_row(matrix_, i, fresh, grown);
+    std::sort(fresh.items.begin() + static_cast<std::ptrdiff_t>(fresh.start[i]), fresh.items.end());
+    fresh.start.push_back(fresh.items.size());
   }
   blocks_.clear();
   block_unknowns_.clear();
   pending_.clear();
-  matrix_ = std::move(grown);
+  insert(fresh, matrix_, kept_);
+  if (!kept_.empty()) mark_ = std::make_shared<const char>();
+  if (matrix_.mark) matrix_.mark = mark_;
   ++version_;
 }
 

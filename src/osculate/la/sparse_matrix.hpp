@@ -75,10 +75,10 @@ class MatrixBuilder {
   void clear();
   /// The same in some rows alone: what was added to others is still there.
   void clear(std::span<const Index> rows);
-  /// Remembers all values as they stand, for as long as the pattern stays.
+  /// Remembers all values as they stand; zero is that of what the pattern grows by.
   void keep_values();
   /// Sets all values to those that were kept, in the rows that have been touched since; false:
-  /// there are none of this pattern.
+  /// there are none.
   [[nodiscard]] bool restore_values();
   void forget_values();
   /// Entries outside the pattern are kept aside until `finish`.

@@ -198,7 +198,7 @@ class BasicSystem {
   [[nodiscard]] const la::SparseMatrix& matrix();
   [[nodiscard]] std::uint64_t pattern_version() const;
   [[nodiscard]] la::Symmetry symmetry() const;
-  /// Unsymmetric for pressures that follow surfaces alone.
+  /// Unsymmetric for pressures that follow surfaces, or contact without friction, alone.
   [[nodiscard]] bool nearly_symmetric() const;
   /// See model/changing_unknowns.hpp; for la::LinearSolver::may_change.
   [[nodiscard]] std::vector<Index> changing_unknowns() const;

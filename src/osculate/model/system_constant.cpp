@@ -26,8 +26,8 @@ class OfCells {
 template <int Dim>
 bool BasicSystem<Dim>::stays_linear() const {
   const Impl& s = *impl_;
-  return !s.bulk.ranks && !s.motion && !s.with_stresses && !s.nearly_symmetric &&
-         s.resistance.share == 0 && s.on(Term::bulk) && !s.bulk.constant.empty();
+  return !s.bulk.ranks && !s.motion && !s.with_stresses && s.resistance.share == 0 &&
+         s.on(Term::bulk) && !s.bulk.constant.empty();
 }
 
 template <int Dim>

@@ -15,6 +15,12 @@
 namespace osculate::model {
 namespace {
 
+/// A pair that holds its two sides together throughout.
+template <int Dim>
+bool ties_alone(const BasicModel<Dim>& model, const BasicContactPair<Dim>& pair) {
+  return pairing::is_tied(pair.definition) && model.pair_changes.empty();
+}
+
 /// A moment about axes fixed in space has no potential: its tangent is unsymmetric.
 template <int Dim>
 bool has_moment_in_space(const BasicModel<Dim>& model, const DeadLoad& load) {
@@ -24,18 +30,14 @@ bool has_moment_in_space(const BasicModel<Dim>& model, const DeadLoad& load) {
          });
 }
 
-/// Whether more is unsymmetric than pressures make it.
+/// Friction, inertia of bodies that turn, moments about fixed axes: what is not symmetric of their
+/// tangents is as large as the rest.
 template <int Dim>
-bool is_unsymmetric_but_for_pressures(const BasicModel<Dim>& model) {
-  for (const BasicContactPair<Dim>& pair : model.pairs) {
-    const pairing::PairDefinition<Dim>& d = pair.definition;
-    if (pairing::is_tied(d) && model.pair_changes.empty()) continue;
-    if (d.friction || pairing::by_mortar(d) ||
-        (d.weight == pairing::Weight::current_area && d.tangent.consistent))
-      return true;
-  }
-  for (const BasicPairChange<Dim>& change : model.pair_changes)
-    if (change.friction) return true;
+bool is_unsymmetric(const BasicModel<Dim>& model) {
+  const auto rubs = [](const auto& has) { return static_cast<bool>(has.friction); };
+  if (std::ranges::any_of(model.pair_changes, rubs)) return true;
+  for (const BasicContactPair<Dim>& pair : model.pairs)
+    if (pair.definition.friction && !ties_alone(model, pair)) return true;
   bool has_mass = false;
   for (const BasicRigidBody<Dim>& body : model.rigid) has_mass = has_mass || body.mass > 0;
   for (const Step& step : model.steps) {
@@ -46,12 +48,26 @@ bool is_unsymmetric_but_for_pressures(const BasicModel<Dim>& model) {
   return false;
 }
 
+/// Pressures that follow a surface: what is not symmetric is of its rim. Contact without friction
+/// whose points carry an area that moves, or by mortar, whose forces are not the derivative of its
+/// gaps to the last term: what is not symmetric is in the ratio of pressure to stiffness.
+template <int Dim>
+bool is_nearly_symmetric(const BasicModel<Dim>& model) {
+  const auto presses = [](const Step& step) { return !step.pressure.empty(); };
+  const auto has_area = [&](const BasicContactPair<Dim>& pair) {
+    const pairing::PairDefinition<Dim>& d = pair.definition;
+    return (pairing::by_mortar(d) ||
+            (d.weight == pairing::Weight::current_area && d.tangent.consistent)) &&
+           !ties_alone(model, pair);
+  };
+  return std::ranges::any_of(model.steps, presses) || std::ranges::any_of(model.pairs, has_area);
+}
+
 }  // namespace
 
 template <int Dim>
 bool needs_unsymmetric(const BasicModel<Dim>& model) {
-  return is_unsymmetric_but_for_pressures(model) ||
-         std::ranges::any_of(model.steps, [](const Step& step) { return !step.pressure.empty(); });
+  return is_unsymmetric(model) || is_nearly_symmetric(model);
 }
 
 template bool needs_unsymmetric(const Model&);
@@ -70,7 +86,7 @@ BasicSystem<Dim>::Impl::Impl(const BasicModel<Dim>& m, int threads, const core::
       assembler(dofs, builder),
       symmetry(needs_unsymmetric(m) ? la::Symmetry::unsymmetric : la::Symmetry::indefinite),
       nearly_symmetric(symmetry == la::Symmetry::unsymmetric && constraints.count() == 0 &&
-                       !is_unsymmetric_but_for_pressures(m)),
+                       !is_unsymmetric(m)),
       ranks(of) {
   contact.workers.threads = bulk.threads;
   last.contact.resize(model.pairs.size());

@@ -38,7 +38,7 @@ concept Softens = requires(S s) {
 };
 
 /// Systems whose tangents are symmetric but for little, as those with pressures that follow a
-/// surface: what is not symmetric of these is of its rim.
+/// surface, of which only the rim is not.
 template <class S>
 concept NearlySymmetric = requires(const S s) {
   { s.nearly_symmetric() } -> std::same_as<bool>;
@@ -86,13 +86,16 @@ bool solve_by_symmetric_part(S& system, la::LinearSolver& solver, const Eigen::V
                              FormerFactors& former) {
   if constexpr (NearlySymmetric<S>) {
     constexpr Index worth_it = 1000;
-    constexpr la::NearbyLimits limits{8, 1e-11};
+    constexpr int at_least = 8;
+    constexpr double tolerance = 1e-11;
     const la::SparseMatrix& k = system.matrix();
     if (!system.nearly_symmetric() || !former.symmetric_part_serves() || k.n < worth_it ||
         solver.asks_for_places())
       return false;
     const la::FactorReport report = la::factor_symmetric_part(k, system.pattern_version(), solver);
     du = -residual;
+    const la::NearbyLimits limits{std::max(at_least, la::affordable_iterations(report, k)),
+                                  tolerance};
     if (report.status != la::SolveStatus::ok || report.condition > 0 ||
         !la::solve_nearby(k, system.symmetry(), solver, limits, du).solved) {
       former.refuse_symmetric_part();

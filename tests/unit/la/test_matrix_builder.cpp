@@ -117,7 +117,7 @@ TEST(MatrixBuilder, clear_keeps_the_pattern_of_what_was_aside) {
   EXPECT_EQ(k.value, (std::vector<double>{0, 0, 0}));
 }
 
-TEST(MatrixBuilder, kept_values_come_back_as_long_as_the_pattern_stays) {
+TEST(MatrixBuilder, kept_values_come_back_also_where_the_pattern_grows) {
   MatrixBuilder m(3);
   EXPECT_FALSE(m.restore_values()) << "nothing was kept";
   m.add(0, 1, 3.0);
@@ -133,9 +133,11 @@ TEST(MatrixBuilder, kept_values_come_back_as_long_as_the_pattern_stays) {
   ASSERT_TRUE(m.restore_values());
   EXPECT_EQ(m.finish().value, kept);
   m.add(1, 2, 4.0);
-  EXPECT_FALSE(m.restore_values()) << "that waits for its place";
-  m.keep_values();
-  EXPECT_TRUE(m.restore_values());
+  m.add(2, 2, 0.3);
+  EXPECT_EQ(m.finish().value, (std::vector<double>{0, 3, 0, 4, 0.1 + 0.3}));
+  ASSERT_TRUE(m.restore_values());
+  EXPECT_EQ(m.finish().column, (std::vector<Index>{0, 1, 1, 2, 2}));
+  EXPECT_EQ(m.finish().value, (std::vector<double>{0, 3, 0, 0, 0.1}));
   m.forget_values();
   EXPECT_FALSE(m.restore_values());
 }
@@ -153,6 +155,7 @@ TEST(MatrixBuilder, rows_that_are_not_touched_have_the_values_of_their_mark) {
   m.add(3, 3, 5.0);
   m.add_block(std::vector<Index>{0, 1}, block, 2);  // (1, 0) is in no place: merged by `finish`
   EXPECT_NE(m.finish().mark, kept.mark) << "the pattern has grown";
+  EXPECT_EQ(m.finish().touched, (std::vector<Index>{3, 0, 1}));
   m.keep_values();
   const SparseMatrix again = m.finish();
   EXPECT_NE(again.mark, kept.mark);
