@@ -26,25 +26,41 @@ void multiply(const CompressedRows& a, const Eigen::VectorXd& x, core::Crew& cre
   });
 }
 
-void compress(const SparseMatrix& k, Symmetry symmetry, CompressedRows& a) {
-  std::vector<Index> next(as_size(k.n) + 1, 0);
-  for_each_entry(k, symmetry, [&](Index i, Index, double) { ++next[as_size(i) + 1]; });
-  std::partial_sum(next.begin(), next.end(), next.begin());
-  a.resize(k.n, k.n);
-  a.resizeNonZeros(next.back());
-  std::ranges::copy(next, a.outerIndexPtr());
-  for_each_entry(
-      k, symmetry,
-      [&](Index i, Index j, double value) {  // rows from above, so that columns are in order
-        const Index at = next[as_size(i)]++;
-        a.innerIndexPtr()[at] = j;
-        a.valuePtr()[at] = value;
-      });
+namespace {
+
+/// Calls take(row, column, value) as `for_each_entry` does, of an unsymmetric matrix: rows by
+/// several threads.
+template <class Take>
+void for_each_entry(const SparseMatrix& k, core::Crew& crew, const Take& take) {
+  constexpr std::size_t worth_it = 500;
+  crew.share_runs(as_size(k.n), worth_it, [&](std::size_t begin, std::size_t end) {
+    for (auto i = static_cast<Index>(begin); i < static_cast<Index>(end); ++i)
+      for (Index e = k.row_start[as_size(i)]; e < k.row_start[as_size(i) + 1]; ++e)
+        if (const Index j = k.column[as_size(e)]; k.value[as_size(e)] != 0 || i == j)
+          take(i, j, k.value[as_size(e)]);
+  });
 }
 
-CompressedRows compressed(const SparseMatrix& k, Symmetry symmetry) {
-  CompressedRows a;
-  compress(k, symmetry, a);
+}  // namespace
+
+CompressedRows compressed(const SparseMatrix& k, Symmetry symmetry, core::Crew& crew) {
+  const auto each = [&](const auto& take) {
+    if (symmetry == Symmetry::unsymmetric)
+      for_each_entry(k, crew, take);
+    else
+      for_each_entry(k, symmetry, take);  // rows from above, so that columns are in order
+  };
+  std::vector<Index> next(as_size(k.n) + 1, 0);
+  each([&](Index i, Index, double) { ++next[as_size(i) + 1]; });
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  CompressedRows a(k.n, k.n);
+  a.resizeNonZeros(next.back());
+  std::ranges::copy(next, a.outerIndexPtr());
+  each([&](Index i, Index j, double value) {
+    const Index at = next[as_size(i)]++;
+    a.innerIndexPtr()[at] = j;
+    a.valuePtr()[at] = value;
+  });
   return a;
 }
 
@@ -155,14 +171,16 @@ CompressedRows product(const CompressedRows& a, const CompressedRows& b, core::C
   if (entries > as_size(std::numeric_limits<Index>::max())) throw std::bad_alloc();
   CompressedRows out(rows, b.cols());
   out.resizeNonZeros(static_cast<Index>(entries));
-  Index row = 0, next = 0;
-  for (Rows& part : piece) {
-    std::ranges::copy(part.column, out.innerIndexPtr() + next);
-    std::ranges::copy(part.value, out.valuePtr() + next);
-    for (const Index end : part.end) out.outerIndexPtr()[++row] = next + end;
-    next += static_cast<Index>(part.value.size());
-    part = {};
-  }
+  std::vector<Index> first{0};
+  for (const Rows& part : piece)
+    first.push_back(first.back() + static_cast<Index>(part.value.size()));
+  crew.share(pieces, [&](std::size_t p) {
+    Rows part = std::move(piece[p]);
+    std::ranges::copy(part.column, out.innerIndexPtr() + first[p]);
+    std::ranges::copy(part.value, out.valuePtr() + first[p]);
+    Index* row = out.outerIndexPtr() + begin(p);
+    for (const Index end : part.end) *++row = first[p] + end;
+  });
   return out;
 }
 

@@ -34,10 +34,13 @@ void for_each_entry(const SparseMatrix& k, Symmetry symmetry, const Take& take) 
     }
 }
 
-/// The matrix with both triangles; entries that are zero are left out, but for the diagonal. The
-/// room of what `a` was is taken where it suffices.
-void compress(const SparseMatrix& k, Symmetry symmetry, CompressedRows& a);
-[[nodiscard]] CompressedRows compressed(const SparseMatrix& k, Symmetry symmetry);
+/// The matrix with both triangles; entries that are zero are left out, but for the diagonal.
+[[nodiscard]] CompressedRows compressed(const SparseMatrix& k, Symmetry symmetry, core::Crew& crew);
+/// By one thread.
+[[nodiscard]] inline CompressedRows compressed(const SparseMatrix& k, Symmetry symmetry) {
+  core::Crew one(1);
+  return compressed(k, symmetry, one);
+}
 [[nodiscard]] SparseMatrix stored(const CompressedRows& a);
 
 /// y = A x, row by row with several threads: the bits do not depend on their number.

@@ -117,8 +117,8 @@ CompressedRows translated(CompressedRows& rows, const std::vector<Index>& here, 
 
 }  // namespace
 
-RowsHere rows_here(const SparseMatrix& k, Symmetry symmetry, const Dealt& dealt) {
-  if (!dealt.ranks) return {compressed(k, symmetry), Halo(k.n)};
+RowsHere rows_here(const SparseMatrix& k, Symmetry symmetry, const Dealt& dealt, core::Crew& crew) {
+  if (!dealt.ranks) return {compressed(k, symmetry, crew), Halo(k.n)};
   const Index begin = dealt.begin, own = dealt.end - begin;
   CompressedRows rows = own_rows(k, symmetry, dealt, begin, own);
   constexpr Index unseen = -1, seen = -2;

@@ -29,7 +29,8 @@ struct RowsHere {
   CompressedRows a;  ///< with columns of the halo
   Halo halo;
 };
-[[nodiscard]] RowsHere rows_here(const SparseMatrix& k, Symmetry symmetry, const Dealt& dealt);
+[[nodiscard]] RowsHere rows_here(const SparseMatrix& k, Symmetry symmetry, const Dealt& dealt,
+                                 core::Crew& crew);
 /// The matrix of which they are the rows.
 [[nodiscard]] SparseMatrix matrix_of(const CompressedRows& rows, const Halo& halo,
                                      const Dealt& dealt);

@@ -246,6 +246,7 @@ class MultigridEngine final : public Engine {
   explicit MultigridEngine(const MumpsOptions& direct) : direct_(direct) {}
 
   bool build(const SparseMatrix& k, Symmetry symmetry, const Places& places) override {
+    call_crew(places.threads);
     a_ = {};
     in_step_ = false;
     bodies_.reset();
@@ -298,7 +299,7 @@ class MultigridEngine final : public Engine {
   }
   /// Rows of this process with columns here.
   CompressedRows take_part(const SparseMatrix& k, Symmetry symmetry) {
-    RowsHere rows = rows_here(k, symmetry, part_.dealt);
+    RowsHere rows = rows_here(k, symmetry, part_.dealt, *crew_);
     part_.halo = std::move(rows.halo);
     part_.unknowns.clear();
     if (part_.dealt.ranks) {

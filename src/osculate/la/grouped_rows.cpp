@@ -37,40 +37,69 @@ void sum_up_any(Index rows, const double* values, std::span<const GroupedRows::R
 
 GroupedRows::GroupedRows(const CompressedRows& a, GroupStarts groups, core::Crew& crew)
     : groups_(std::move(groups)), columns_(static_cast<Index>(a.cols())) {
-  find_columns(a);
-  values_.assign(first_value_.back(), 0.0);
+  find_columns(a, crew);
+  values_.resize(static_cast<Eigen::Index>(first_value_.back()));
   crew.share_runs(groups_.size() - 1, groups_at_least, [&](std::size_t begin, std::size_t end) {
+    std::fill(of_group(begin), of_group(end), 0.0);
     for (std::size_t g = begin; g < end; ++g)
       for (Index i = 0; i < size_of(g); ++i) {
         const auto row = [&](const auto& take) {
           for (CompressedRows::InnerIterator entry(a, groups_[g] + i); entry; ++entry)
             take(static_cast<Index>(entry.col()), entry.value());
         };
-        put(row, g, i, values_.data() + first_value_[g]);
+        put(row, g, i, of_group(g));
       }
   });
 }
 
+namespace {
+
+/// Those of some groups that follow each other.
+struct RunsOfGroups {
+  std::vector<GroupedRows::Run> run;
+  std::vector<std::size_t> end, columns;  ///< of each group
+};
+
 /// The columns of a group are those of any of its rows.
-void GroupedRows::find_columns(const CompressedRows& a) {
-  std::vector<Index> columns, before;
-  for (std::size_t g = 0; g + 1 < groups_.size(); ++g) {
+void add_group(const CompressedRows& a, Index first, Index last, std::vector<Index>& columns,
+               std::vector<Index>& before, RunsOfGroups& to) {
+  columns.clear();
+  for (Index i = first; i < last; ++i) {
+    const Index *const begin = a.innerIndexPtr() + a.outerIndexPtr()[i],
+                       *const end = a.innerIndexPtr() + a.outerIndexPtr()[i + 1];
+    if (std::equal(begin, end, columns.begin(), columns.end())) continue;
+    before.swap(columns);
     columns.clear();
-    for (Index i = groups_[g]; i < groups_[g + 1]; ++i) {
-      const Index *const begin = a.innerIndexPtr() + a.outerIndexPtr()[i],
-                         *const end = a.innerIndexPtr() + a.outerIndexPtr()[i + 1];
-      if (std::equal(begin, end, columns.begin(), columns.end())) continue;
-      before.swap(columns);
-      columns.clear();
-      std::set_union(before.begin(), before.end(), begin, end, std::back_inserter(columns));
+    std::set_union(before.begin(), before.end(), begin, end, std::back_inserter(columns));
+  }
+  const std::size_t others = to.run.size();
+  for (const Index column : columns)
+    if (to.run.size() > others && to.run.back().first + to.run.back().count == column)
+      ++to.run.back().count;
+    else
+      to.run.push_back({column, 1});
+  to.end.push_back(to.run.size());
+  to.columns.push_back(columns.size());
+}
+
+}  // namespace
+
+void GroupedRows::find_columns(const CompressedRows& a, core::Crew& crew) {
+  const std::size_t groups = groups_.size() - 1;
+  const std::size_t pieces = std::clamp<std::size_t>(groups / groups_at_least, 1, 8);
+  std::vector<RunsOfGroups> of(pieces);
+  crew.share(pieces, [&](std::size_t p) {
+    std::vector<Index> columns, before;
+    for (std::size_t g = groups * p / pieces; g < groups * (p + 1) / pieces; ++g)
+      add_group(a, groups_[g], groups_[g + 1], columns, before, of[p]);
+  });
+  for (const RunsOfGroups& piece : of) {
+    const std::size_t first = runs_.size(), g = first_value_.size() - 1;
+    runs_.insert(runs_.end(), piece.run.begin(), piece.run.end());
+    for (std::size_t i = 0; i < piece.end.size(); ++i) {
+      first_run_.push_back(first + piece.end[i]);
+      first_value_.push_back(first_value_.back() + piece.columns[i] * as_size(size_of(g + i)));
     }
-    for (const Index column : columns)
-      if (runs_.size() > first_run_[g] && runs_.back().first + runs_.back().count == column)
-        ++runs_.back().count;
-      else
-        runs_.push_back({column, 1});
-    first_run_.push_back(runs_.size());
-    first_value_.push_back(first_value_[g] + columns.size() * as_size(size_of(g)));
   }
 }
 

@@ -45,8 +45,8 @@ class GroupedRows {
         for (Index i = 0; i < size_of(g); ++i)
           if (!put([&](const auto& take) { rows(groups_[g] + i, take); }, g, i, values.data()))
             fits = false;
-        if (std::equal(values.begin(), values.end(), values_.begin() + place_of(g))) continue;
-        std::copy(values.begin(), values.end(), values_.begin() + place_of(g));
+        if (std::equal(values.begin(), values.end(), of_group(g))) continue;
+        std::copy(values.begin(), values.end(), of_group(g));
         differs[g] = 1;
       }
     });
@@ -55,7 +55,7 @@ class GroupedRows {
   void multiply(const Eigen::VectorXd& x, core::Crew& crew, Eigen::VectorXd& y) const;
   /// Entries that are not zero, and those of the diagonal.
   [[nodiscard]] CompressedRows as_rows() const;
-  [[nodiscard]] std::size_t entries() const { return values_.size(); }
+  [[nodiscard]] std::size_t entries() const { return first_value_.back(); }
   [[nodiscard]] Index rows() const { return groups_.back(); }
   [[nodiscard]] const GroupStarts& groups() const { return groups_; }
   /// Calls take(row, column, value) for what is not zero, and for the diagonal.
@@ -79,11 +79,12 @@ class GroupedRows {
     const auto has = [&](Index from, Index to) {
       return before[as_size(from)] < before[as_size(to)];
     };
-    for (std::size_t g = 0; g + 1 < groups_.size(); ++g)
+    const auto is_in = [&](const Run& run) { return has(run.first, run.first + run.count); };
+    for (std::size_t g = 0; g + 1 < groups_.size(); ++g) {
+      if (std::ranges::none_of(runs(g), is_in)) continue;
       for (Index i = 0; i < size_of(g); ++i) {
         const double* of_run = values_.data() + first_value_[g] + i;
-        for (std::size_t r = first_run_[g]; r < first_run_[g + 1]; ++r) {
-          const auto& [first, count] = runs_[r];
+        for (const auto& [first, count] : runs(g)) {
           for (Index c = first; has(c, first + count); ++c)
             if (const double value = of_run[size_of(g) * (c - first)];
                 has(c, c + 1) && (value != 0 || c == groups_[g] + i))
@@ -91,6 +92,7 @@ class GroupedRows {
           of_run += static_cast<std::ptrdiff_t>(size_of(g)) * count;
         }
       }
+    }
   }
   /// Entries of a group's rows in the columns of the same numbers.
   [[nodiscard]] Eigen::MatrixXd diagonal_block(std::size_t group) const;
@@ -111,10 +113,8 @@ class GroupedRows {
     return groups_[group + 1] - groups_[group];
   }
   void multiply(std::size_t group, const double* x, double* y_of_group) const;
-  void find_columns(const CompressedRows& a);
-  [[nodiscard]] std::ptrdiff_t place_of(std::size_t group) const {
-    return static_cast<std::ptrdiff_t>(first_value_[group]);
-  }
+  void find_columns(const CompressedRows& a, core::Crew& crew);
+  [[nodiscard]] double* of_group(std::size_t group) { return values_.data() + first_value_[group]; }
   /// Writes row `i` of a group among the values of the group. False: an entry has no place.
   template <class Row>
   bool put(const Row& row, std::size_t group, Index i, double* values) const {
@@ -135,7 +135,7 @@ class GroupedRows {
   Index columns_ = 0;
   std::vector<std::size_t> first_run_{0}, first_value_{0};
   std::vector<Run> runs_;  ///< of consecutive columns
-  std::vector<double> values_;
+  Eigen::VectorXd values_;
 };
 
 }  // namespace osculate::la

@@ -241,10 +241,10 @@ bool Multigrid::Impl::coarsen() {
     next.p.makeCompressed();
   }
   auto coarse = std::make_unique<Level>();
+  CompressedRows transposed = next.p.transpose();
   {
     CompressedRows spread = times_a(next.p);
     release(fine.a);
-    const CompressedRows transposed = next.p.transpose();
     CompressedRows all = product(transposed, spread, crew);
     release(spread);
     CompressedRows a = summed_up(all, ranks, first);
@@ -252,9 +252,10 @@ bool Multigrid::Impl::coarsen() {
     with_columns_here(a, coarse->halo).swap(coarse->a);
   }
   const CompressedRows p = with_columns_here(next.p, coarse->halo);
+  if (ranks) transposed = p.transpose();
   fine.p = CompactRows(GroupedRows(p, fine.start, crew), crew);
   fine.transposed =
-      CompactRows(GroupedRows(p.transpose(), with_others(next.start, coarse->halo), crew), crew);
+      CompactRows(GroupedRows(transposed, with_others(next.start, coarse->halo), crew), crew);
   coarse->start = std::move(next.start);
   coarse->near_null = std::move(next.near_null);
   fine.near_null = {};

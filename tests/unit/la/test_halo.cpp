@@ -70,7 +70,8 @@ struct Here {
   CompressedRows a;
 
   Here(const SparseMatrix& k, Symmetry symmetry) : dealt(dealt_as(k)) {
-    RowsHere rows = rows_here(k, symmetry, dealt);
+    core::Crew crew(1);
+    RowsHere rows = rows_here(k, symmetry, dealt, crew);
     halo = std::move(rows.halo);
     a.swap(rows.a);
   }

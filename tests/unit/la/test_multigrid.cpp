@@ -33,12 +33,25 @@ TEST(CompressedRows, HaveBothTrianglesAndNoZerosBesideTheDiagonal) {
   CompressedRows a = compressed(k, Symmetry::unsymmetric);
   EXPECT_EQ(Eigen::MatrixXd(a), all);
   EXPECT_EQ(a.nonZeros(), 8);  // the zero at (1, 1) stays, that at (0, 1) does not
-  compress(k, Symmetry::positive_definite, a);
+  a = compressed(k, Symmetry::positive_definite);
   EXPECT_EQ(Eigen::MatrixXd(a), upper);
   EXPECT_EQ(a.nonZeros(), 8);
   for (Eigen::Index i = 0; i < 4; ++i)
     for (Index e = a.outerIndexPtr()[i] + 1; e < a.outerIndexPtr()[i + 1]; ++e)
       EXPECT_LT(a.innerIndexPtr()[e - 1], a.innerIndexPtr()[e]);
+}
+
+TEST(CompressedRows, AreThoseOfOneThread) {
+  const ElasticBlock block(5, 6, 7);
+  core::Crew three(3);
+  for (const Symmetry symmetry : {Symmetry::unsymmetric, Symmetry::indefinite}) {
+    const CompressedRows expected = compressed(block.matrix(), symmetry);
+    const CompressedRows a = compressed(block.matrix(), symmetry, three);
+    ASSERT_GT(a.rows(), 1000) << "for some runs of rows";
+    ASSERT_EQ(a.nonZeros(), expected.nonZeros());
+    EXPECT_TRUE(std::equal(a.valuePtr(), a.valuePtr() + a.nonZeros(), expected.valuePtr()));
+    EXPECT_EQ(Eigen::MatrixXd(a - expected).norm(), 0);
+  }
 }
 
 TEST(Aggregates, EveryGroupBelongsToOneAndThoseLeftOutToNone) {
