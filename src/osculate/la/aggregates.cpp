@@ -1,5 +1,7 @@
 #include "osculate/la/aggregates.hpp"
 
+#include <algorithm>
+
 namespace osculate::la {
 namespace {
 
@@ -13,17 +15,39 @@ struct Neighbours {
   }
 };
 
+/// The group of each row.
+std::vector<Index> groups_of_rows(const GroupStarts& start) {
+  std::vector<Index> of(as_size(start.back()));
+  for (std::size_t g = 0; g + 1 < start.size(); ++g)
+    std::fill(of.begin() + start[g], of.begin() + start[g + 1], static_cast<Index>(g));
+  return of;
+}
+
+double square_of(double entry) {
+  constexpr double touched = 1e-300;
+  return entry * entry + touched;
+}
+
+/// Square of the norm of a block of the diagonal.
+double own_square(const CompressedRows& a, Index first, Index last) {
+  double square = 0;
+  for (Index i = first; i < last; ++i) {
+    const Index* const column = a.innerIndexPtr();
+    const Index end = a.outerIndexPtr()[i + 1];
+    const auto from = std::lower_bound(column + a.outerIndexPtr()[i], column + end, first) - column;
+    for (auto e = static_cast<Index>(from); e < end && column[e] < last; ++e)
+      if (a.valuePtr()[e] != 0) square += square_of(a.valuePtr()[e]);
+  }
+  return square;
+}
+
 /// Squares of the norms of the blocks of one row of groups.
 class RowOfBlocks {
  public:
-  RowOfBlocks(const CompressedRows& a, const GroupStarts& start)
-      : a_(a), start_(start), group_of_(as_size(a.rows())), square_(start.size() - 1, 0) {
-    for (std::size_t g = 0; g + 1 < start.size(); ++g)
-      for (Index i = start[g]; i < start[g + 1]; ++i) group_of_[as_size(i)] = static_cast<Index>(g);
-  }
+  RowOfBlocks(const CompressedRows& a, const GroupStarts& start, std::span<const Index> group_of)
+      : a_(a), start_(start), group_of_(group_of), square_(start.size() - 1, 0) {}
   /// The groups met, `square` is theirs until the next call.
   const std::vector<Index>& visit(Index g) {
-    constexpr double touched = 1e-300;
     for (const Index h : met_) square_[as_size(h)] = 0;
     met_.clear();
     for (Index i = start_[as_size(g)]; i < start_[as_size(g) + 1]; ++i)
@@ -31,7 +55,7 @@ class RowOfBlocks {
         if (entry.value() == 0 || entry.col() >= a_.rows()) continue;
         const Index h = group_of_[as_size(static_cast<Index>(entry.col()))];
         if (square_[as_size(h)] == 0) met_.push_back(h);
-        square_[as_size(h)] += entry.value() * entry.value() + touched;
+        square_[as_size(h)] += square_of(entry.value());
       }
     return met_;
   }
@@ -40,30 +64,44 @@ class RowOfBlocks {
  private:
   const CompressedRows& a_;
   const GroupStarts& start_;
-  std::vector<Index> group_of_, met_;
+  std::span<const Index> group_of_;
+  std::vector<Index> met_;
   std::vector<double> square_;
 };
 
 Neighbours neighbours(const CompressedRows& a, const GroupStarts& start,
-                      std::span<const char> left_out, double strength) {
-  RowOfBlocks row(a, start);
-  const auto groups = static_cast<Index>(start.size() - 1);
-  std::vector<double> own(as_size(groups));
-  for (Index g = 0; g < groups; ++g) {
-    row.visit(g);
-    own[as_size(g)] = row.square(g);
-  }
+                      std::span<const char> left_out, double strength, core::Crew& crew) {
+  constexpr std::size_t worth_it = 200;
+  const std::size_t groups = start.size() - 1;
+  const std::size_t pieces = std::clamp<std::size_t>(groups / worth_it, 1, 16);
+  const auto begin = [&](std::size_t p) { return static_cast<Index>(groups * p / pieces); };
+  const std::vector<Index> group_of = groups_of_rows(start);
+  std::vector<double> own(groups);
+  crew.share(pieces, [&](std::size_t p) {
+    for (Index g = begin(p); g < begin(p + 1); ++g)
+      own[as_size(g)] = own_square(a, start[as_size(g)], start[as_size(g) + 1]);
+  });
   const double least = strength * strength * strength * strength;
+  std::vector<Neighbours> piece(pieces);
+  crew.share(pieces, [&](std::size_t p) {
+    RowOfBlocks row(a, start, group_of);
+    Neighbours& of = piece[p];
+    for (Index g = begin(p); g < begin(p + 1); ++g) {
+      if (left_out[as_size(g)] == 0)
+        for (const Index h : row.visit(g)) {
+          const double square = row.square(h);
+          if (h != g && left_out[as_size(h)] == 0 &&
+              square * square > least * own[as_size(g)] * own[as_size(h)])
+            of.group.push_back(h);
+        }
+      of.start.push_back(static_cast<Index>(of.group.size()));
+    }
+  });
   Neighbours out;
-  for (Index g = 0; g < groups; ++g) {
-    if (left_out[as_size(g)] == 0)
-      for (const Index h : row.visit(g)) {
-        const double square = row.square(h);
-        if (h != g && left_out[as_size(h)] == 0 &&
-            square * square > least * own[as_size(g)] * own[as_size(h)])
-          out.group.push_back(h);
-      }
-    out.start.push_back(static_cast<Index>(out.group.size()));
+  for (const Neighbours& of : piece) {
+    const Index before = out.start.back();
+    for (std::size_t g = 1; g < of.start.size(); ++g) out.start.push_back(before + of.start[g]);
+    out.group.insert(out.group.end(), of.group.begin(), of.group.end());
   }
   return out;
 }
@@ -71,8 +109,8 @@ Neighbours neighbours(const CompressedRows& a, const GroupStarts& start,
 }  // namespace
 
 Aggregates aggregate(const CompressedRows& a, const GroupStarts& start,
-                     std::span<const char> left_out, double strength) {
-  const Neighbours near = neighbours(a, start, left_out, strength);
+                     std::span<const char> left_out, double strength, core::Crew& crew) {
+  const Neighbours near = neighbours(a, start, left_out, strength, crew);
   const auto groups = static_cast<Index>(start.size() - 1);
   Aggregates out{0, std::vector<Index>(as_size(groups), -1)};
   std::vector<Index>& of = out.of_group;

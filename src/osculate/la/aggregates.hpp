@@ -23,6 +23,7 @@ struct Aggregates {
 /// Source     P. Vanek, J. Mandel, M. Brezina, Computing 56 (1996) 179-196, section 5.1
 /// Tested by  tests/unit/la/test_multigrid.cpp
 [[nodiscard]] Aggregates aggregate(const CompressedRows& a, const GroupStarts& start,
-                                   std::span<const char> left_out, double strength);
+                                   std::span<const char> left_out, double strength,
+                                   core::Crew& crew);
 
 }  // namespace osculate::la

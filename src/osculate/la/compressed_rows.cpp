@@ -102,7 +102,22 @@ struct Runs {
 struct Rows {
   std::vector<Index> end, column;  ///< of each row, and of each entry
   std::vector<double> value;
+  void clear() {
+    end.clear();
+    column.clear();
+    value.clear();
+  }
 };
+
+/// Room for so many entries, and where there is none for as many times that as are expected.
+void make_room(std::size_t entries, double expected, CompressedRows& out) {
+  constexpr auto most = static_cast<double>(std::numeric_limits<Index>::max());
+  // Not NotEnoughMemory, which all processes are short of.
+  if (static_cast<double>(entries) > most) throw std::bad_alloc();
+  if (static_cast<Eigen::Index>(entries) <= out.data().size()) return;
+  const double all = std::min(most, std::max(1.0, expected) * static_cast<double>(entries));
+  out.resizeNonZeros(std::max(static_cast<Index>(entries), static_cast<Index>(all)));
+}
 
 /// A sum of rows that knows in which blocks of columns it is not zero.
 class SumOfRows {
@@ -144,43 +159,47 @@ class SumOfRows {
 
 }  // namespace
 
-/// Row by row, where columns of `b` come in runs, as those of a coarser model's nodes do. In pieces
-/// for several threads; the bits are those of one piece.
+/// Row by row, where columns of `b` come in runs, as those of a coarser model's nodes do. By
+/// several threads; the bits are those of one. Some rows wait beside the result at a time, which
+/// has room for as many entries as these make expect: memory that nothing is written to is none.
 CompressedRows product(const CompressedRows& a, const CompressedRows& b, core::Crew& crew) {
+  constexpr Index least = 64, of_thread = 8, waves = 8;
+  constexpr double spare = 1.1;
   const auto rows = static_cast<Index>(a.rows());
-  const std::size_t pieces = as_size(std::min<Index>(rows, 8 * crew.threads()));
-  const auto begin = [&](std::size_t p) {
-    return static_cast<Index>(as_size(rows) * p / std::max<std::size_t>(pieces, 1));
-  };
+  const Index at_once = of_thread * crew.threads();
+  const Index length = std::max(least, rows / (waves * at_once) + 1);
   const Runs runs(b);
-  std::vector<Rows> piece(pieces);
-  crew.share(pieces, [&](std::size_t p) {
-    SumOfRows sum(static_cast<Index>(b.cols()));
-    for (Index i = begin(p); i < begin(p + 1); ++i) {
-      for (CompressedRows::InnerIterator entry(a, i); entry; ++entry) {
-        const std::size_t k = as_size(static_cast<Index>(entry.col()));
-        for (std::size_t r = runs.of_row[k]; r < runs.of_row[k + 1]; ++r)
-          sum.add(entry.value(), runs.run[r], b.valuePtr());
-      }
-      sum.take(piece[p]);
-    }
-  });
-  std::size_t entries = 0;
-  for (const Rows& part : piece) entries += part.value.size();
-  // Not NotEnoughMemory, which all processes are short of.
-  if (entries > as_size(std::numeric_limits<Index>::max())) throw std::bad_alloc();
   CompressedRows out(rows, b.cols());
-  out.resizeNonZeros(static_cast<Index>(entries));
-  std::vector<Index> first{0};
-  for (const Rows& part : piece)
-    first.push_back(first.back() + static_cast<Index>(part.value.size()));
-  crew.share(pieces, [&](std::size_t p) {
-    Rows part = std::move(piece[p]);
-    std::ranges::copy(part.column, out.innerIndexPtr() + first[p]);
-    std::ranges::copy(part.value, out.valuePtr() + first[p]);
-    Index* row = out.outerIndexPtr() + begin(p);
-    for (const Index end : part.end) *++row = first[p] + end;
-  });
+  Index* const end = out.outerIndexPtr();
+  std::vector<Rows> piece(as_size(at_once));
+  for (Index from = 0; from < rows; from += at_once * length) {
+    const std::size_t pieces = as_size(std::min(at_once, (rows - from + length - 1) / length));
+    const auto begin = [&](std::size_t p) {
+      return std::min(rows, from + static_cast<Index>(p) * length);
+    };
+    crew.share(pieces, [&](std::size_t p) {
+      SumOfRows sum(static_cast<Index>(b.cols()));
+      piece[p].clear();
+      for (Index i = begin(p); i < begin(p + 1); ++i) {
+        for (CompressedRows::InnerIterator entry(a, i); entry; ++entry) {
+          const std::size_t k = as_size(static_cast<Index>(entry.col()));
+          for (std::size_t r = runs.of_row[k]; r < runs.of_row[k + 1]; ++r)
+            sum.add(entry.value(), runs.run[r], b.valuePtr());
+        }
+        sum.take(piece[p]);
+      }
+    });
+    std::vector<std::size_t> first{as_size(end[from])};
+    for (std::size_t p = 0; p < pieces; ++p) first.push_back(first[p] + piece[p].value.size());
+    make_room(first.back(), spare * static_cast<double>(rows) / begin(pieces), out);
+    crew.share(pieces, [&](std::size_t p) {
+      std::ranges::copy(piece[p].column, out.innerIndexPtr() + first[p]);
+      std::ranges::copy(piece[p].value, out.valuePtr() + first[p]);
+      Index* next = end + begin(p);
+      for (const Index e : piece[p].end) *++next = static_cast<Index>(first[p]) + e;
+    });
+  }
+  out.resizeNonZeros(end[rows]);
   return out;
 }
 

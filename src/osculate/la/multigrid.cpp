@@ -227,7 +227,7 @@ bool Multigrid::Impl::coarsen() {
     return ranks ? product(fine.a, with_rows_of_others(b, fine.halo), crew)
                  : product(fine.a, b, crew);
   };
-  const Aggregates aggregates = aggregate(fine.a, fine.start, left_out(fine), strength);
+  const Aggregates aggregates = aggregate(fine.a, fine.start, left_out(fine), strength, crew);
   Tentative next = tentative(fine, aggregates);
   const std::vector<Index> first = dealt_out(ranks, next.start.back());
   const Index unknowns = first.back();
@@ -241,10 +241,11 @@ bool Multigrid::Impl::coarsen() {
     next.p.makeCompressed();
   }
   auto coarse = std::make_unique<Level>();
-  CompressedRows transposed = next.p.transpose();
+  CompressedRows transposed;
   {
     CompressedRows spread = times_a(next.p);
     release(fine.a);
+    transposed = next.p.transpose();
     CompressedRows all = product(transposed, spread, crew);
     release(spread);
     CompressedRows a = summed_up(all, ranks, first);

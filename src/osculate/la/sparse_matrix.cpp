@@ -319,7 +319,7 @@ void MatrixBuilder::merge() {
     touch(entry.at.row);
     *find(entry.at.row, entry.at.column) += entry.value;
   }
-  aside_.clear();
+  aside_ = {};
 }
 
 void MatrixBuilder::grow_by(std::span<const MatrixPlace> places) {
@@ -420,9 +420,9 @@ void MatrixBuilder::grow() {
     std::sort(fresh.items.begin() + static_cast<std::ptrdiff_t>(fresh.start[i]), fresh.items.end());
     fresh.start.push_back(fresh.items.size());
   }
-  blocks_.clear();
-  block_unknowns_.clear();
-  pending_.clear();
+  blocks_ = {};
+  block_unknowns_ = {};
+  pending_ = {};
   insert(fresh, matrix_, kept_);
   if (!kept_.empty()) mark_ = std::make_shared<const char>();
   if (matrix_.mark) matrix_.mark = mark_;

@@ -73,8 +73,8 @@ void BasicSystem<Dim>::begin_step(const Step& step, const State& committed) {
     const Index unknown = impl_->dofs.unknown_of(p.dof);
     if (unknown >= 0) flags[static_cast<std::size_t>(unknown)] = true;
   }
-  impl_->assembler.set_prescribed(std::move(flags));
-  impl_->builder.forget_values();          // rows of other unknowns may be left out
+  if (impl_->assembler.set_prescribed(std::move(flags)))
+    impl_->builder.forget_values();        // rows of other unknowns are left out
   if (!impl_->model.pair_changes.empty())  // buffers of ties are no good for points that part
     for (pairing::PairEvaluation<Dim>& contact : impl_->last.contact) contact = {};
   impl_->begin_drivers();

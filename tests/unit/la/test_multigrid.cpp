@@ -60,7 +60,9 @@ TEST(Aggregates, EveryGroupBelongsToOneAndThoseLeftOutToNone) {
   const GroupStarts start = groups_of_three(block.unknowns());
   std::vector<char> out(start.size() - 1, 0);
   out[3] = out[40] = 1;
-  const Aggregates found = aggregate(a, start, out, 0.05);
+  core::Crew one(1), three(3);
+  const Aggregates found = aggregate(a, start, out, 0.05, one);
+  EXPECT_EQ(aggregate(a, start, out, 0.05, three).of_group, found.of_group);
   std::vector<int> members(static_cast<std::size_t>(found.count), 0);
   for (std::size_t g = 0; g < out.size(); ++g) {
     if (out[g] != 0) {
@@ -97,7 +99,8 @@ TEST(Aggregates, WeakCouplingsAreLeftAlone) {
   GroupStarts start;
   for (Index i = 0; i <= along * across; ++i) start.push_back(i);
   const std::vector<char> none(static_cast<std::size_t>(along * across), 0);
-  const Aggregates found = aggregate(a, start, none, 0.05);
+  core::Crew one(1);
+  const Aggregates found = aggregate(a, start, none, 0.05, one);
   std::vector<Index> row(static_cast<std::size_t>(found.count), -1);
   for (Index i = 0; i < along; ++i)
     for (Index j = 0; j < across; ++j) {
