@@ -12,6 +12,12 @@ namespace {
 
 constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
+/// Empties it, and gives its memory back.
+template <class T>
+void release(std::vector<T>& of) {
+  std::vector<T>().swap(of);
+}
+
 }  // namespace
 
 Eigen::VectorXd multiply(const SparseMatrix& k, const Eigen::VectorXd& x) {
@@ -172,7 +178,7 @@ bool MatrixBuilder::restore_values() {
 }
 
 void MatrixBuilder::forget_values() {
-  std::vector<double>().swap(kept_);
+  release(kept_);
   touched_.clear();
   mark_.reset();
   matrix_.mark.reset();
@@ -319,7 +325,7 @@ void MatrixBuilder::merge() {
     touch(entry.at.row);
     *find(entry.at.row, entry.at.column) += entry.value;
   }
-  aside_ = {};
+  release(aside_);
 }
 
 void MatrixBuilder::grow_by(std::span<const MatrixPlace> places) {
@@ -420,9 +426,9 @@ void MatrixBuilder::grow() {
     std::sort(fresh.items.begin() + static_cast<std::ptrdiff_t>(fresh.start[i]), fresh.items.end());
     fresh.start.push_back(fresh.items.size());
   }
-  blocks_ = {};
-  block_unknowns_ = {};
-  pending_ = {};
+  release(blocks_);
+  release(block_unknowns_);
+  release(pending_);
   insert(fresh, matrix_, kept_);
   if (!kept_.empty()) mark_ = std::make_shared<const char>();
   if (matrix_.mark) matrix_.mark = mark_;
