@@ -134,6 +134,7 @@ void BasicSystem<Dim>::predict(const State& committed, double fraction, solve::E
                                Prediction friction) {
   impl_->contact.friction = friction;
   impl_->recent.clear();
+  impl_->constraints.held.clear();
   impl_->assemble(committed, {committed}, fraction, true, Impl::Pass::predict, out);
 }
 

@@ -20,6 +20,9 @@ struct ConstraintTerm {
   Index begin;               ///< number of unknowns of the dof space
   Index of_nodes = 0;        ///< first one of the constraints of nodes
   Index end;                 ///< of the matrix
+  /// Of each of them: what holds a multiplier where it is, as its row says what others say, too.
+  /// Empty: nothing holds any.
+  std::vector<double> held{};
 
   ConstraintTerm(const BasicModel<Dim>& m, Index displacements);
   [[nodiscard]] Index count() const { return end - begin; }
@@ -29,8 +32,13 @@ struct ConstraintTerm {
   void add(std::size_t pair, Assembly<Dim>& to) const;
   /// Forces and rows of all constraints of nodes, of a state whose nodes are at `x`.
   void add_nodes(const BasicState<Dim>& s, std::span<const Vec<Dim>> x, Assembly<Dim>& to) const;
-  /// Compliance of all multipliers in the tangent.
-  void soften(la::MatrixBuilder& builder) const;
+  /// Compliance of all multipliers in the tangent. Conditions of nodes that follow from others, as
+  /// far as the tangent knows, have so much of it from here on that their multipliers stay.
+  ///
+  /// Formula    a_i depends where |a_i - sum c_j a_j| <= 1e-6 |a_i| with rows in the measure of the
+  ///            diagonal of K; compliance D = 1e6 a . K_d^-1 a of these, and 1e-8 of it of all
+  ///            others
+  void soften(la::MatrixBuilder& builder);
 
  private:
   void add_tangent(const pairing::ContactBlock<Dim>& block, bool shear, Index row,
