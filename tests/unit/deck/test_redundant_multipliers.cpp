@@ -1,8 +1,11 @@
-// Multipliers on a rigid face: two nodes that stick say the same thing twice.
+// Multipliers that say the same thing twice: of two nodes that stick on a rigid face, of
+// conditions.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "system_test.hpp"
 
@@ -71,6 +74,53 @@ TEST(RedundantMultipliers, ABlockThatSlidesHasTheRightAcceleration) {
   EXPECT_NEAR(result.state.rates.energies.friction,
               0.5 * weight * result.state.rigid[0].translation.x(), 1e-9);
   EXPECT_NEAR(result.state.rigid[0].angle, 0, 1e-12);
+}
+
+/// A column whose top is plane, and an edge of it straight, which says of the node between its ends
+/// that it is in the plane once more.
+std::string column(double load) {
+  return fmt::format(R"(osculate: 1
+mesh: {{generate: {{b: {{box: {{x: [2, 3], y: [0, 1], z: [0, 2], elements: [2, 2, 2]}}}}}}}}
+materials: {{n: {{linear_elastic: {{E: 1500, nu: 0.25}}}}}}
+sections: [{{on: b, material: n, element: solid}}]
+coplanar: [{{on: b.top}}]
+collinear: [{{on: b.top_front}}]
+sets: {{rod: {{union: [b.top_back_left, b.bottom_front_right]}}}}
+fixed_distance: [{{on: rod}}]
+steps:
+  - {{name: s, increments: 1, prescribe: [{{on: b.bottom, ux: 0, uy: 0, uz: 0}}],
+     forces: [{{on: b.top_front_left, fx: {0}, fz: {1}}}]}}
+)",
+                     5 * load, -9 * load);
+}
+
+double out_of_plane(const std::vector<Vec3>& x) {
+  const Vec3 normal = (x[2] - x[0]).cross(x[6] - x[0]).normalized();  // corners
+  double most = 0;
+  for (const Vec3& y : x) most = std::max(most, std::abs(normal.dot(y - x[0])));
+  return most;
+}
+
+TEST(RedundantMultipliers, ConditionsOfNodesThatSayTheSameTwiceTakeNoMoreIterations) {
+  for (const double load : {0.9, 0.97, 0.99, 1.0, 1.01, 1.03, 1.1, 1.5}) {
+    SCOPED_TRACE(load);
+    const Description description = parse_model(column(load), "model.yaml");
+    const Built3 built = build3(description, load_mesh(description));
+    const auto result = model::run(built.model, built.options, {});
+    ASSERT_EQ(result.outcome, solve::Outcome::converged) << result.message;
+    ASSERT_EQ(result.steps.front().increments.size(), 1U);
+    const solve::IncrementRecord& record = result.steps.front().increments.front();
+    EXPECT_EQ(record.cutbacks, 0);
+    EXPECT_LE(record.iterations.size(), 4U);
+    EXPECT_LT(record.iterations.back().residual, 1e-11);
+    std::vector<Vec3> top;
+    for (std::size_t n = 0; n < built.model.reference.size(); ++n)
+      if (built.model.reference[n].z() == 2)
+        top.push_back(built.model.reference[n] +
+                      result.state.u.segment<3>(3 * static_cast<Eigen::Index>(n)));
+    ASSERT_EQ(top.size(), 9U);
+    EXPECT_LT(out_of_plane(top), 1e-12);
+  }
 }
 
 }  // namespace

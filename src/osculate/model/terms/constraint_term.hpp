@@ -12,7 +12,7 @@ namespace osculate::model {
 /// dof space.
 ///
 /// Tested by  tests/unit/model/test_contact.cpp, test_contact_tangent.cpp,
-///            tests/unit/deck/test_node_constraints.cpp
+///            test_node_constraint.cpp, tests/unit/deck/test_redundant_multipliers.cpp
 template <int Dim>
 struct ConstraintTerm {
   const BasicModel<Dim>& model;
