@@ -1,6 +1,5 @@
 #pragma once
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "osculate/la/sparse_matrix.hpp"
@@ -18,10 +17,9 @@ class BasicAssembler {
   BasicAssembler(const BasicDofSpace<Dim>& dofs, la::MatrixBuilder& matrix)
       : dofs_(dofs), matrix_(matrix) {}
 
-  /// Returns    whether they were others before
-  bool set_prescribed(std::vector<bool> prescribed) {
-    return std::exchange(prescribed_, std::move(prescribed)) != prescribed_;
-  }
+  void set_prescribed(std::vector<bool> prescribed) { prescribed_ = std::move(prescribed); }
+  /// By unknown.
+  [[nodiscard]] const std::vector<bool>& prescribed() const { return prescribed_; }
   [[nodiscard]] bool prescribed(Index unknown) const {
     return prescribed_[static_cast<std::size_t>(unknown)];
   }

@@ -73,8 +73,7 @@ void BasicSystem<Dim>::begin_step(const Step& step, const State& committed) {
     const Index unknown = impl_->dofs.unknown_of(p.dof);
     if (unknown >= 0) flags[static_cast<std::size_t>(unknown)] = true;
   }
-  if (impl_->assembler.set_prescribed(std::move(flags)))
-    impl_->builder.forget_values();        // rows of other unknowns are left out
+  impl_->prescribe(std::move(flags));
   if (!impl_->model.pair_changes.empty())  // buffers of ties are no good for points that part
     for (pairing::PairEvaluation<Dim>& contact : impl_->last.contact) contact = {};
   impl_->begin_drivers();
@@ -124,7 +123,6 @@ void BasicSystem<Dim>::resume_step(const Step& step, const State& committed,
     if (p.hold) p.ramp.target = p.ramp.start;
     if (p.further) p.ramp.target = p.ramp.start + step.prescribed.at(i).ramp.target;
   }
-  impl_->reserve_pattern();
   impl_->builder.grow_by(memory.grown);
   if (impl_->motion) impl_->motion->speeds = memory.speeds;
 }

@@ -135,8 +135,7 @@ void BasicSystem<Dim>::Impl::share(std::span<const pairing::PairState<Dim>> cont
   bulk.ranks = ranks;
   bulk.shares = shares_of(model, dofs, constraints.count(), owner, ranks->rank(), ranks->count());
   contact.workers = {bulk.threads, ranks, bulk.shares.seen};
-  builder = la::MatrixBuilder(constraints.end, ranks, bulk.shares.rows);
-  builder.grow_by(grown);
+  begin_matrix(grown);
 }
 
 template <int Dim>
@@ -146,8 +145,22 @@ void BasicSystem<Dim>::Impl::share_no_more() {
   bulk.ranks = nullptr;
   contact.workers = {};
   contact.workers.threads = bulk.threads;
-  builder = la::MatrixBuilder(constraints.end);
+  begin_matrix(grown);
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::begin_matrix(std::span<const la::MatrixPlace> grown) {
+  builder = bulk.ranks ? la::MatrixBuilder(constraints.end, ranks, bulk.shares.rows)
+                       : la::MatrixBuilder(constraints.end);
   builder.grow_by(grown);
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::prescribe(std::vector<bool> unknowns) {
+  if (unknowns == assembler.prescribed()) return;
+  const std::vector<la::MatrixPlace> grown = grown_by_all();
+  assembler.set_prescribed(std::move(unknowns));
+  begin_matrix(grown);
 }
 
 template <int Dim>
@@ -163,7 +176,7 @@ void BasicSystem<Dim>::Impl::reserve_pattern() {
   if (pattern_reserved) return;
   pattern_reserved = true;
   // Contact entries enter the pattern when they first appear and then stay.
-  bulk.reserve(dofs, builder);
+  bulk.reserve(dofs, assembler.prescribed(), builder);
 }
 
 template <int Dim>

@@ -62,6 +62,11 @@ struct BasicSystem<Dim>::Impl {
   /// Before another builder takes the place of this one: the entries that contact has had, on all
   /// processes.
   std::vector<la::MatrixPlace> grown_by_all();
+  /// A matrix anew, with these entries of contact.
+  void begin_matrix(std::span<const la::MatrixPlace> grown);
+  /// Unknowns whose motion is prescribed have nothing but their diagonal in the matrix: where they
+  /// are others than before, it begins anew.
+  void prescribe(std::vector<bool> unknowns);
   /// The places of all cells in the matrix.
   void reserve_pattern();
 

@@ -156,7 +156,9 @@ TEST(ChangingUnknowns, KeptSumsAreThoseOfAnotherSystem) {
 }
 
 TEST(ChangingUnknowns, AnalysesGiveTheSameResults) {
-  for (const std::string& text : models()) {
+  for (const std::string& model : models()) {
+    // Deep enough for the elimination of its inside to pay.
+    const std::string text = edited(model, "elements: [24, 12]", "elements: [24, 24]");
     SCOPED_TRACE(text);
     const Description d = parse_model(text, "model.yaml");
     Built built = build(d, load_mesh(d));

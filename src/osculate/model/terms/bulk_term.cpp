@@ -29,7 +29,8 @@ BulkTerm<Dim>::BulkTerm(const BasicModel<Dim>& m, const BasicDofSpace<Dim>& dofs
 }
 
 template <int Dim>
-void BulkTerm<Dim>::reserve(const BasicDofSpace<Dim>& dofs, la::MatrixBuilder& builder) const {
+void BulkTerm<Dim>::reserve(const BasicDofSpace<Dim>& dofs, const std::vector<bool>& prescribed,
+                            la::MatrixBuilder& builder) const {
   std::vector<Index> of_cell;
   for (const Job& job : jobs) {
     if (job.memory.removed) continue;
@@ -37,7 +38,8 @@ void BulkTerm<Dim>::reserve(const BasicDofSpace<Dim>& dofs, la::MatrixBuilder& b
     for (const Index node : cell_nodes(model.mesh, job.cell).nodes)
       for (int i = 0; i < Dim; ++i) {
         const Index unknown = dofs.unknown_of(dofs.node_dof(node, i));
-        if (unknown >= 0) of_cell.push_back(unknown);
+        if (unknown >= 0 && !prescribed[static_cast<std::size_t>(unknown)])
+          of_cell.push_back(unknown);
       }
     builder.reserve_block(of_cell);
   }

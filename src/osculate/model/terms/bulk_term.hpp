@@ -48,7 +48,10 @@ struct BulkTerm {
 
   BulkTerm(const BasicModel<Dim>& m, const BasicDofSpace<Dim>& dofs, int thread_count);
   /// The places of all cells in the matrix.
-  void reserve(const BasicDofSpace<Dim>& dofs, la::MatrixBuilder& builder) const;
+  /// Places for the entries of all cells, but for those of unknowns that are `prescribed`, which
+  /// have none.
+  void reserve(const BasicDofSpace<Dim>& dofs, const std::vector<bool>& prescribed,
+               la::MatrixBuilder& builder) const;
   /// Matrices of linear cells will be kept, of those that are evaluated here.
   void keep_linear();
   /// A cell at the nodal displacements `u` after what its points remember; nothing (no dofs) of one
