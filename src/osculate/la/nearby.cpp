@@ -107,6 +107,56 @@ Nearby solve_nearby(const SparseMatrix& k, Symmetry symmetry, LinearSolver& fact
   return NearbySolutions(k, symmetry, factors).solve(limits, rhs_in_solution_out);
 }
 
+namespace {
+
+/// Rows of the transposed matrix.
+SparseMatrix transposed(const SparseMatrix& k) {
+  const auto at = [](Index i) { return static_cast<std::size_t>(i); };
+  SparseMatrix out;
+  out.n = k.n;
+  out.row_start.assign(at(k.n) + 1, 0);
+  for (const Index j : k.column) ++out.row_start[at(j) + 1];
+  for (Index i = 0; i < k.n; ++i) out.row_start[at(i) + 1] += out.row_start[at(i)];
+  std::vector<Index> next(out.row_start.begin(), out.row_start.end());
+  out.column.resize(k.column.size());
+  out.value.resize(k.value.size());
+  for (Index i = 0; i < k.n; ++i)
+    for (Index e = k.row_start[at(i)]; e < k.row_start[at(i) + 1]; ++e) {
+      const Index to = next[at(k.column[at(e)])]++;
+      out.column[at(to)] = i;
+      out.value[at(to)] = k.value[at(e)];
+    }
+  return out;
+}
+
+/// (K + K^T) / 2, with the places of both.
+SparseMatrix symmetric_part(const SparseMatrix& k) {
+  const auto at = [](Index i) { return static_cast<std::size_t>(i); };
+  const SparseMatrix across = transposed(k);
+  SparseMatrix out;
+  out.n = k.n;
+  out.row_start.assign(1, 0);
+  out.column.reserve(k.column.size());
+  out.value.reserve(k.value.size());
+  for (Index i = 0; i < k.n; ++i) {
+    Index e = k.row_start[at(i)], f = across.row_start[at(i)];
+    const Index end = k.row_start[at(i) + 1], last = across.row_start[at(i) + 1];
+    while (e < end || f < last) {
+      const Index own = e < end ? k.column[at(e)] : k.n;
+      const Index other = f < last ? across.column[at(f)] : k.n;
+      double sum = 0;
+      if (own <= other) sum += k.value[at(e++)];
+      if (other <= own) sum += across.value[at(f++)];
+      out.column.push_back(std::min(own, other));
+      out.value.push_back(0.5 * sum);
+    }
+    out.row_start.push_back(static_cast<Index>(out.column.size()));
+  }
+  return out;
+}
+
+}  // namespace
+
 FactorReport factor_symmetric_part(const SparseMatrix& k, std::uint64_t pattern_version,
                                    LinearSolver& solver) {
   if (k.ranks) {  // the entries across are elsewhere
@@ -114,19 +164,7 @@ FactorReport factor_symmetric_part(const SparseMatrix& k, std::uint64_t pattern_
     none.status = SolveStatus::failed;
     return none;
   }
-  SparseMatrix half = k;  // only its upper triangle counts
-  half.mark.reset();
-  const auto at = [](Index i) { return static_cast<std::size_t>(i); };
-  std::vector<Index> next(k.row_start.begin(), k.row_start.end());  // of each row's columns
-  for (Index i = 0; i < k.n; ++i)
-    for (Index e = next[at(i)]; e < k.row_start[at(i) + 1]; ++e) {
-      const Index j = k.column[at(e)];
-      Index& opposite = next[at(j)];
-      while (opposite < k.row_start[at(j) + 1] && k.column[at(opposite)] < i) ++opposite;
-      const bool there = opposite < k.row_start[at(j) + 1] && k.column[at(opposite)] == i;
-      half.value[at(e)] = 0.5 * (k.value[at(e)] + (there ? k.value[at(opposite)] : 0));
-    }
-  return solver.factor(half, pattern_version, Symmetry::indefinite);
+  return solver.factor(symmetric_part(k), pattern_version, Symmetry::indefinite);
 }
 
 int affordable_iterations(const FactorReport& factors, const SparseMatrix& k) {

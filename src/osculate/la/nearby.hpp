@@ -47,8 +47,8 @@ class NearbySolutions {
 [[nodiscard]] Nearby solve_nearby(const SparseMatrix& k, Symmetry symmetry, LinearSolver& factors,
                                   const NearbyLimits& limits, Eigen::VectorXd& rhs_in_solution_out);
 
-/// Factors (K + K^T) / 2 for a matrix whose entries have places on both sides of the diagonal: half
-/// the work and the memory of the factors of K, for which they stand in with `solve_nearby`.
+/// Factors (K + K^T) / 2: half the work and the memory of the factors of K, for which they stand in
+/// with `solve_nearby`.
 ///
 /// Tested by  tests/unit/la/test_nearby.cpp
 FactorReport factor_symmetric_part(const SparseMatrix& k, std::uint64_t pattern_version,

@@ -74,6 +74,8 @@ void BasicSystem<Dim>::begin_step(const Step& step, const State& committed) {
     if (unknown >= 0) flags[static_cast<std::size_t>(unknown)] = true;
   }
   impl_->prescribe(std::move(flags));
+  if (step.dynamics) impl_->builder.forget_values();  // nothing is kept beside inertia
+  impl_->constraints.forget_held();
   if (!impl_->model.pair_changes.empty())  // buffers of ties are no good for points that part
     for (pairing::PairEvaluation<Dim>& contact : impl_->last.contact) contact = {};
   impl_->begin_drivers();
@@ -132,7 +134,6 @@ void BasicSystem<Dim>::predict(const State& committed, double fraction, solve::E
                                Prediction friction) {
   impl_->contact.friction = friction;
   impl_->recent.clear();
-  impl_->constraints.held.clear();
   impl_->assemble(committed, {committed}, fraction, true, Impl::Pass::predict, out);
 }
 

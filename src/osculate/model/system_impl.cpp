@@ -158,8 +158,14 @@ void BasicSystem<Dim>::Impl::begin_matrix(std::span<const la::MatrixPlace> grown
 template <int Dim>
 void BasicSystem<Dim>::Impl::prescribe(std::vector<bool> unknowns) {
   if (unknowns == assembler.prescribed()) return;
-  const std::vector<la::MatrixPlace> grown = grown_by_all();
+  std::vector<la::MatrixPlace> grown = grown_by_all();
   assembler.set_prescribed(std::move(unknowns));
+  const auto is_prescribed = [&](Index u) {
+    return u < dofs.unknowns() && assembler.prescribed(u);
+  };
+  std::erase_if(grown, [&](const la::MatrixPlace& place) {
+    return is_prescribed(place.row) || is_prescribed(place.column);
+  });
   begin_matrix(grown);
 }
 
@@ -437,6 +443,7 @@ void BasicSystem<Dim>::Impl::assemble_terms(const State& committed, const Trial&
   if (on(Term::bulk)) springs.add(now, x, to);
   if (on(Term::contact))
     contact.add(committed, trial, fraction, length, x, pass == Pass::iterate, constraints, to, out);
+  if (with_tangent) constraints.hold(committed, dofs, assembler.prescribed());
   if (on(Term::rigid)) constraints.add_nodes(now, x, to);
   add_loads(now, fraction, with_tangent, to);
   if (timed()) motion->add_inertia(now, to);

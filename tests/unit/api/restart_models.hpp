@@ -147,6 +147,23 @@ inline constexpr const char* swinging =
 /// Runs that end with warnings of what was on the way: a beam that is bent and straightened again,
 /// a block that moves away from a floor that was nearest at first, a body that goes past its slave,
 /// blocks that go through a floor and that gain energy in explicit time integration.
+/// Conditions that say the same twice, and a second step that lets a side go.
+inline constexpr const char* conditioned =
+    R"(osculate: 1
+mesh: {generate: {b: {box: {x: [2, 3], y: [0, 1], z: [0, 2], elements: [2, 2, 2]}}}}
+materials: {n: {linear_elastic: {E: 1500, nu: 0.25}}}
+sections: [{on: b, material: n, element: solid}]
+coplanar: [{on: b.top}]
+collinear: [{on: b.top_front}]
+sets: {rod: {union: [b.top_back_left, b.bottom_front_right]}}
+fixed_distance: [{on: rod}]
+steps:
+  - {name: press, increments: 4, prescribe: [{on: b.bottom, ux: 0, uy: 0, uz: 0}, {on: b.top_back_right, ux: 0}],
+     forces: [{on: b.top_front_left, fx: 5, fz: -9}]}
+  - {name: let_go, increments: 4, release: [{on: b.top_back_right, of: [ux]}], forces: [{on: b.top_front_left, fx: 8, fz: -2}]}
+output: {history: [{on: b.top_front_left, of: ux}, {on: b.top_back_right, of: ux}]}
+)";
+
 inline constexpr const char* bent =
     "osculate: 1\n"
     "mesh: {generate: {b: {box: {x: [0, 10], y: [0, 1], elements: [10, 1]}}}}\n"

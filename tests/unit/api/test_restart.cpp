@@ -38,6 +38,7 @@ class Restart : public ::testing::Test {
     write("creeping", creeping);
     write("ringing", ringing);
     write("swinging", swinging);
+    write("conditioned", conditioned);
   }
   void TearDown() override { fs::remove_all(folder_); }
   /// With a checkpoint after each increment.
@@ -140,7 +141,8 @@ TEST_F(Restart, TheWarningsAreThoseOfTheWholeRun) {
 TEST_F(Restart, AfterEveryIncrementGivesTheSameBits) {
   for (const auto& [model, least] :
        {std::pair("plane", 10), std::pair("linear", 6), std::pair("plastic", 7),
-        std::pair("creeping", 7), std::pair("ringing", 6), std::pair("swinging", 5)}) {
+        std::pair("creeping", 7), std::pair("ringing", 6), std::pair("swinging", 5),
+        std::pair("conditioned", 7)}) {
     const std::string whole = std::string(model) + "_whole",
                       pieces = std::string(model) + "_pieces";
     ASSERT_EQ(run(options(model, whole)).status, RunStatus::done);

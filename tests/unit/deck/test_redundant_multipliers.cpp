@@ -78,7 +78,7 @@ TEST(RedundantMultipliers, ABlockThatSlidesHasTheRightAcceleration) {
 
 /// A column whose top is plane, and an edge of it straight, which says of the node between its ends
 /// that it is in the plane once more.
-std::string column(double load) {
+std::string column(double load, int increments = 1) {
   return fmt::format(R"(osculate: 1
 mesh: {{generate: {{b: {{box: {{x: [2, 3], y: [0, 1], z: [0, 2], elements: [2, 2, 2]}}}}}}}}
 materials: {{n: {{linear_elastic: {{E: 1500, nu: 0.25}}}}}}
@@ -88,10 +88,10 @@ collinear: [{{on: b.top_front}}]
 sets: {{rod: {{union: [b.top_back_left, b.bottom_front_right]}}}}
 fixed_distance: [{{on: rod}}]
 steps:
-  - {{name: s, increments: 1, prescribe: [{{on: b.bottom, ux: 0, uy: 0, uz: 0}}],
+  - {{name: s, increments: {2}, prescribe: [{{on: b.bottom, ux: 0, uy: 0, uz: 0}}],
      forces: [{{on: b.top_front_left, fx: {0}, fz: {1}}}]}}
 )",
-                     5 * load, -9 * load);
+                     5 * load, -9 * load, increments);
 }
 
 double out_of_plane(const std::vector<Vec3>& x) {
@@ -120,6 +120,19 @@ TEST(RedundantMultipliers, ConditionsOfNodesThatSayTheSameTwiceTakeNoMoreIterati
                       result.state.u.segment<3>(3 * static_cast<Eigen::Index>(n)));
     ASSERT_EQ(top.size(), 9U);
     EXPECT_LT(out_of_plane(top), 1e-12);
+  }
+}
+
+/// Increments that begin where the last ones point to, off the conditions.
+TEST(RedundantMultipliers, AndNoMoreInIncrementsThatBeginWhereOthersPointTo) {
+  const Description description = parse_model(column(2, 8), "model.yaml");
+  const Built3 built = build3(description, load_mesh(description));
+  const auto result = model::run(built.model, built.options, {});
+  ASSERT_EQ(result.outcome, solve::Outcome::converged) << result.message;
+  for (const solve::IncrementRecord& record : result.steps.front().increments) {
+    EXPECT_EQ(record.cutbacks, 0);
+    EXPECT_LE(record.iterations.size(), 4U);
+    EXPECT_LT(record.iterations.back().residual, 1e-9);
   }
 }
 

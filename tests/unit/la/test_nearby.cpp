@@ -218,6 +218,8 @@ TEST(Nearby, RefusesWhatIsNoNumberOrHasNoFactors) {
 // Beside a dense solver; and they stand in for those of the whole.
 TEST(Nearby, FactorsTheSymmetricPart) {
   MatrixBuilder m = block(8, 2.0, 0.01);
+  m.add(50, 3, 0.02);  // no entry across
+  m.add(4, 51, 0.03);
   const SparseMatrix& k = m.finish();
   Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(k.n, k.n);
   for (Index row = 0; row < k.n; ++row)

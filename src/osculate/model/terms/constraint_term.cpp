@@ -1,11 +1,11 @@
 #include "osculate/model/terms/constraint_term.hpp"
 
-#include <Eigen/SparseCore>
-#include <Eigen/SparseQR>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
+#include "osculate/model/condition_rows.hpp"
 #include "osculate/pairing/point_penalty.hpp"
 
 namespace osculate::model {
@@ -57,17 +57,6 @@ void ConstraintTerm<Dim>::move(BasicState<Dim>& s, const Eigen::VectorXd& du, do
 
 namespace {
 
-/// Dofs of the nodes of a constraint, then those of its body.
-template <int Dim>
-std::vector<Dof> dofs_of(const NodeConstraint& c, const BasicDofSpace<Dim>& dofs) {
-  std::vector<Dof> out;
-  for (const Index node : c.nodes)
-    for (int i = 0; i < Dim; ++i) out.push_back(dofs.node_dof(node, i));
-  for (int i = 0; c.body >= 0 && i < body::motions<Dim>; ++i)
-    out.push_back(dofs.body_dof(c.body, i));
-  return out;
-}
-
 template <int Dim>
 void add_curvature(const NodeConstraintValue<Dim>& g, std::span<const Dof> d, Assembly<Dim>& to) {
   constexpr int turns = body::rotations<Dim>;
@@ -106,9 +95,7 @@ void ConstraintTerm<Dim>::add_one(const NodeConstraint& c, Index at, const Basic
   const std::vector<Dof> d = dofs_of(c, to.dofs);
   for (Eigen::Index row = 0; row < g.value.size(); ++row) {
     const Index unknown = at + static_cast<Index>(row);
-    Eigen::VectorXd gradient(static_cast<Eigen::Index>(d.size()));
-    gradient << g.gradient.row(row).transpose(),
-        g.of_body.size() > 0 ? Eigen::VectorXd(g.of_body.row(row)) : Eigen::VectorXd();
+    Eigen::VectorXd gradient = derivatives(g, row);
     for (std::size_t k = 0; k < d.size(); ++k)
       to.into.forces.internal[d[k]] += lambda[row] * gradient[static_cast<Eigen::Index>(k)];
     to.into.constraint[unknown - begin] += g.value[row];
@@ -120,12 +107,29 @@ void ConstraintTerm<Dim>::add_one(const NodeConstraint& c, Index at, const Basic
     const double largest = to.add_row(unknown);
     // All that it depends on is prescribed: the multiplier stays what it is.
     if (largest <= negligible * gradient.norm()) to.builder.add(unknown, unknown, -c.stiffness);
-    if (!held.empty())
-      to.builder.add(unknown, unknown, -held[static_cast<std::size_t>(unknown - begin)]);
+    if (const double d = held.empty() ? 0 : held[static_cast<std::size_t>(unknown - of_nodes)];
+        d > 0)
+      to.builder.add(unknown, unknown, -d);
     gradient *= to.share;
     to.assembler.add_column(d, {gradient.data(), d.size()}, unknown);
   }
   if (to.with_tangent) add_curvature(g, d, to);
+}
+
+template <int Dim>
+void ConstraintTerm<Dim>::hold(const BasicState<Dim>& committed, const BasicDofSpace<Dim>& dofs,
+                               const std::vector<bool>& prescribed) {
+  if (end - of_nodes < 2) return;
+  std::vector<double> at;
+  for (const NodeConstraint& c : model.node_constraints) {
+    for (const Index node : c.nodes)
+      for (int i = 0; i < Dim; ++i) at.push_back(committed.u[dofs.node_dof(node, i)]);
+    for (int i = 0; c.body >= 0 && i < body::motions<Dim>; ++i)
+      at.push_back(committed.rigid[static_cast<std::size_t>(c.body)].component(i));
+  }
+  if (at == held_at) return;
+  held_at = std::move(at);
+  held = held_conditions(model, dofs, prescribed, committed);
 }
 
 template <int Dim>
@@ -192,15 +196,7 @@ namespace {
 /// across from them and the stiffness of their columns: of all processes, on each.
 struct MultiplierRows {
   std::vector<std::size_t> start{0};  ///< of each row, and the end
-  std::vector<double> column, along, across, stiffness;
-
-  [[nodiscard]] std::size_t count() const { return start.size() - 1; }
-  [[nodiscard]] double compliance(std::size_t row) const {
-    double sum = 0;
-    for (std::size_t e = start[row]; e < start[row + 1]; ++e)
-      if (stiffness[e] > 0) sum += along[e] * across[e] / stiffness[e];
-    return sum;
-  }
+  std::vector<double> along, across, stiffness;
 };
 
 bool is_here(const la::SparseMatrix& k, Index row) {  // the diagonal is in every pattern
@@ -231,18 +227,18 @@ MultiplierRows multiplier_rows(const la::SparseMatrix& k, Index begin, Index end
   together(length);
   MultiplierRows out;
   for (const double l : length) out.start.push_back(out.start.back() + static_cast<std::size_t>(l));
-  out.column.assign(out.start.back(), core::Ranks::nothing);
-  out.along = out.across = out.stiffness = out.column;
+  std::vector<double> column(out.start.back(), core::Ranks::nothing);
+  out.along = out.across = out.stiffness = column;
   std::vector<std::size_t> next(out.start.begin(), out.start.end() - 1);
   each([&](std::size_t row, Index j, double value) {
-    out.column[next[row]] = j;
+    column[next[row]] = j;
     out.along[next[row]++] = value;
   });
-  together(out.column);
+  together(column);
   together(out.along);
   for (std::size_t row = 0; row < length.size(); ++row)
     for (std::size_t e = out.start[row]; e < out.start[row + 1]; ++e) {
-      const auto j = static_cast<Index>(out.column[e]);
+      const auto j = static_cast<Index>(column[e]);
       if (!is_here(k, j)) continue;
       out.across[e] = value_at(k, j, begin + static_cast<Index>(row));
       out.stiffness[e] = std::abs(value_at(k, j, j));
@@ -252,46 +248,18 @@ MultiplierRows multiplier_rows(const la::SparseMatrix& k, Index begin, Index end
   return out;
 }
 
-/// Rows from `first` on of which others are a sum, by an orthogonal basis of one after the other.
-std::vector<std::size_t> dependent_rows(const MultiplierRows& rows, std::size_t first, Index n) {
-  constexpr double dependent = 1e-6;
-  if (first >= rows.count()) return {};
-  std::vector<Eigen::Triplet<double, int>> entries;
-  for (std::size_t i = first; i < rows.count(); ++i) {
-    double square = 0;
-    for (std::size_t e = rows.start[i]; e < rows.start[i + 1]; ++e)
-      if (rows.stiffness[e] > 0) square += rows.along[e] * rows.along[e] / rows.stiffness[e];
-    for (std::size_t e = rows.start[i]; square > 0 && e < rows.start[i + 1]; ++e)
-      if (rows.stiffness[e] > 0)
-        entries.emplace_back(static_cast<int>(rows.column[e]), static_cast<int>(i - first),
-                             rows.along[e] / std::sqrt(square * rows.stiffness[e]));
-  }
-  Eigen::SparseMatrix<double> columns(n, static_cast<int>(rows.count() - first));
-  columns.setFromTriplets(entries.begin(), entries.end());
-  Eigen::SparseQR<Eigen::SparseMatrix<double>, Eigen::COLAMDOrdering<int>> qr;
-  qr.setPivotThreshold(dependent);
-  qr.compute(columns);
-  std::vector<std::size_t> out;
-  for (Eigen::Index k = qr.rank(); k < columns.cols(); ++k)
-    if (const int i = qr.colsPermutation().indices()[k]; columns.col(i).nonZeros() > 0)
-      out.push_back(first + static_cast<std::size_t>(i));
-  return out;
-}
-
 }  // namespace
 
 template <int Dim>
-void ConstraintTerm<Dim>::soften(la::MatrixBuilder& builder) {
-  constexpr double share = 1e-8, holds = 1e6;
+void ConstraintTerm<Dim>::soften(la::MatrixBuilder& builder) const {
+  constexpr double share = 1e-8;
   const MultiplierRows rows = multiplier_rows(builder.finish(), begin, end);
-  held.resize(rows.count(), 0.0);
-  for (const std::size_t i :
-       dependent_rows(rows, static_cast<std::size_t>(of_nodes - begin), begin))
-    held[i] = holds * rows.compliance(i);
-  for (std::size_t i = 0; i < rows.count(); ++i) {
+  for (std::size_t i = 0; i + 1 < rows.start.size(); ++i) {
+    double compliance = 0;
+    for (std::size_t e = rows.start[i]; e < rows.start[i + 1]; ++e)
+      if (rows.stiffness[e] > 0) compliance += rows.along[e] * rows.across[e] / rows.stiffness[e];
     const Index u = begin + static_cast<Index>(i);
-    const double compliance = held[i] != 0.0 ? held[i] : share * rows.compliance(i);
-    if (compliance != 0.0) builder.add(u, u, -compliance);
+    if (compliance != 0.0) builder.add(u, u, -share * compliance);
   }
 }
 

@@ -20,9 +20,6 @@ struct ConstraintTerm {
   Index begin;               ///< number of unknowns of the dof space
   Index of_nodes = 0;        ///< first one of the constraints of nodes
   Index end;                 ///< of the matrix
-  /// Of each of them: what holds a multiplier where it is, as its row says what others say, too.
-  /// Empty: nothing holds any.
-  std::vector<double> held{};
 
   ConstraintTerm(const BasicModel<Dim>& m, Index displacements);
   [[nodiscard]] Index count() const { return end - begin; }
@@ -30,17 +27,19 @@ struct ConstraintTerm {
   void move(BasicState<Dim>& s, const Eigen::VectorXd& du, double factor) const;
   /// Constraints of a pair whose multipliers are unknowns.
   void add(std::size_t pair, Assembly<Dim>& to) const;
+  /// Looks which constraints of nodes follow from others where an attempt begins.
+  void hold(const BasicState<Dim>& committed, const BasicDofSpace<Dim>& dofs,
+            const std::vector<bool>& prescribed);
+  void forget_held() { held_at.clear(); }
   /// Forces and rows of all constraints of nodes, of a state whose nodes are at `x`.
   void add_nodes(const BasicState<Dim>& s, std::span<const Vec<Dim>> x, Assembly<Dim>& to) const;
-  /// Compliance of all multipliers in the tangent. Conditions of nodes that follow from others, as
-  /// far as the tangent knows, have so much of it from here on that their multipliers stay.
-  ///
-  /// Formula    a_i depends where |a_i - sum c_j a_j| <= 1e-6 |a_i| with rows in the measure of the
-  ///            diagonal of K; compliance D = 1e6 a . K_d^-1 a of these, and 1e-8 of it of all
-  ///            others
-  void soften(la::MatrixBuilder& builder);
+  /// Compliance of all multipliers in the tangent.
+  void soften(la::MatrixBuilder& builder) const;
 
  private:
+  std::vector<double> held;     ///< by constraint of nodes: see held_conditions; empty: not known
+  std::vector<double> held_at;  ///< motions of their nodes and bodies, of which that is
+
   void add_tangent(const pairing::ContactBlock<Dim>& block, bool shear, Index row,
                    Assembly<Dim>& to) const;
   void add_one(const NodeConstraint& c, Index at, const BasicState<Dim>& s,
