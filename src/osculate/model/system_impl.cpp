@@ -158,14 +158,8 @@ void BasicSystem<Dim>::Impl::begin_matrix(std::span<const la::MatrixPlace> grown
 template <int Dim>
 void BasicSystem<Dim>::Impl::prescribe(std::vector<bool> unknowns) {
   if (unknowns == assembler.prescribed()) return;
-  std::vector<la::MatrixPlace> grown = grown_by_all();
+  const std::vector<la::MatrixPlace> grown = grown_by_all();  // checkpoints add to what they had
   assembler.set_prescribed(std::move(unknowns));
-  const auto is_prescribed = [&](Index u) {
-    return u < dofs.unknowns() && assembler.prescribed(u);
-  };
-  std::erase_if(grown, [&](const la::MatrixPlace& place) {
-    return is_prescribed(place.row) || is_prescribed(place.column);
-  });
   begin_matrix(grown);
 }
 
