@@ -109,7 +109,7 @@ NodeConstraintValue<Dim> value_of(const NodeConstraint& c, const BasicModel<Dim>
                        Eigen::VectorXd::Zero(rows<Dim>(c)));
 }
 
-/// Rows of the conditions among the unknowns; `begin` of them are there besides multipliers.
+/// Rows of the conditions behind those of the unknowns: `count` of them.
 template <int Dim>
 la::SparseMatrix rows_of_conditions(const BasicModel<Dim>& model, const BasicDofSpace<Dim>& dofs,
                                     const std::vector<bool>& prescribed,
