@@ -11,8 +11,8 @@ namespace osculate::io {
 AppendFile::AppendFile(std::string path, std::uint64_t keep, std::string tail)
     : path_(std::move(path)), tail_(std::move(tail)), size_(keep) {
   constexpr mode_t readable = 0666;
-  const int where = tail_.empty() ? O_APPEND : 0;
-  file_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | where, readable);
+  const int how = tail_.empty() ? O_WRONLY | O_APPEND : O_RDWR;
+  file_ = ::open(path_.c_str(), how | O_CREAT | O_CLOEXEC, readable);
   if (file_ < 0) throw WriteError(path_, "cannot write", errno);
   const auto length = static_cast<off_t>(keep + tail_.size());
   if (::ftruncate(file_, length) == 0 || errno == EINVAL) return;  // a device
@@ -39,7 +39,30 @@ std::size_t AppendFile::write(std::string_view bytes, std::uint64_t at) const {
   return done;
 }
 
+bool AppendFile::within_a_page(std::size_t bytes) const {
+  constexpr std::uint64_t page = 4096;
+  return bytes == 0 || size_ / page == (size_ + bytes - 1) / page;
+}
+
+void AppendFile::replace(std::string_view piece) {
+  std::string all(size_, '\0');
+  std::size_t done = 0;
+  while (done < all.size()) {
+    const ssize_t n =
+        ::pread(file_, all.data() + done, all.size() - done, static_cast<off_t>(done));
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) throw WriteError(path_, "cannot read", n == 0 ? EIO : errno);
+    done += static_cast<std::size_t>(n);
+  }
+  write_file(path_, all.append(piece) + tail_);
+  const int file = ::open(path_.c_str(), O_RDWR | O_CLOEXEC);
+  if (file < 0) throw WriteError(path_, "cannot write", errno);
+  ::close(std::exchange(file_, file));
+  size_ += piece.size();
+}
+
 void AppendFile::append(std::string_view piece) {
+  if (!tail_.empty() && !within_a_page(piece.size() + tail_.size())) return replace(piece);
   const std::string with_tail = tail_.empty() ? std::string{} : std::string(piece) + tail_;
   const std::string_view all = tail_.empty() ? piece : with_tail;
   if (write(all, size_) != all.size()) {

@@ -9,7 +9,9 @@ namespace osculate::io {
 
 /// A file that grows by whole pieces: a piece that cannot be written (disk full) is taken back, so
 /// that the file ends with the last good one. With a tail it ends with that after every piece: the
-/// next piece takes its place, in one write, and is followed by it.
+/// next piece takes its place, in one write, and is followed by it. A process that is killed may be
+/// stopped in a write where a page of the file ends: a piece that goes beyond a page (one in about
+/// 4 kB) has the file written beside and put in its place.
 ///
 /// Errors     WriteError
 /// Tested by  tests/unit/io/test_chunk_file.cpp
@@ -28,6 +30,8 @@ class AppendFile {
   [[nodiscard]] std::uint64_t size() const { return size_; }
 
  private:
+  [[nodiscard]] bool within_a_page(std::size_t bytes) const;
+  void replace(std::string_view piece);
   [[nodiscard]] std::size_t write(std::string_view bytes, std::uint64_t at) const;
   std::string path_, tail_;
   int file_ = -1;

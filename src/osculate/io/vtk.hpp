@@ -78,8 +78,8 @@ struct PvdEntry {
 /// Writes a ParaView collection. Parts are numbered in the order of their first appearance.
 void write_pvd(const std::string& path, std::span<const PvdEntry> entries);
 
-/// The same for a collection that grows while it is read: whole after every call, and none costs
-/// more than what it adds.
+/// The same for a collection that grows while it is read: whole at any moment, also where the process
+/// is killed, and most calls cost no more than what they add.
 ///
 /// Errors     WriteError
 /// Tested by  tests/unit/io/test_vtk.cpp
