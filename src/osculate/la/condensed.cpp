@@ -164,7 +164,8 @@ bool Condensed::Impl::accurate() {
 bool Condensed::Impl::condense(const SparseMatrix& k, FactorReport& report) {
   const int before = inside.count();
   if (!inside.factor(k)) return false;
-  if (!dense->factor(small_matrix(k), symmetric)) return false;
+  dense->matrix() = small_matrix(k);
+  if (!dense->factor(symmetric)) return false;
   matrix = k;
   if (!accurate()) return false;
   report = {};

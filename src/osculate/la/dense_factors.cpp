@@ -1,11 +1,11 @@
 #include "osculate/la/dense_factors.hpp"
 
 #include <cmath>
-#include <utility>
 
 namespace osculate::la {
 
-bool DenseFactors::factor(Eigen::MatrixXd s, bool symmetric) {
+bool DenseFactors::factor(bool symmetric) {
+  Eigen::MatrixXd& s = matrix_;
   symmetric_ = symmetric;
   scale_.resize(s.rows());
   Eigen::ArrayXd sizes = Eigen::ArrayXd::Zero(s.rows());
@@ -14,15 +14,16 @@ bool DenseFactors::factor(Eigen::MatrixXd s, bool symmetric) {
     if (!(sizes[i] > 0) || !std::isfinite(sizes[i])) return false;
     scale_[i] = 1 / std::sqrt(sizes[i]);
   }
-  s = scale_.asDiagonal() * s * scale_.asDiagonal();
+  for (Eigen::Index j = 0; j < s.cols(); ++j)
+    s.col(j).array() = scale_.array() * s.col(j).array() * scale_[j];
   Eigen::ArrayXd pivots;
   if (symmetric) {
-    cholesky_.compute(s);
-    if (cholesky_.info() != Eigen::Success) return false;
-    pivots = cholesky_.matrixLLT().diagonal().array().square();
+    cholesky_.emplace(s);
+    if (cholesky_->info() != Eigen::Success) return false;
+    pivots = s.diagonal().array().square();
   } else {
-    lu_.compute(s);
-    pivots = lu_.matrixLU().diagonal().array().abs();
+    lu_.emplace(s);
+    pivots = s.diagonal().array().abs();
   }
   ratio_ = pivots.minCoeff() / pivots.maxCoeff();
   return ratio_ > 0;
@@ -31,9 +32,9 @@ bool DenseFactors::factor(Eigen::MatrixXd s, bool symmetric) {
 void DenseFactors::solve(Eigen::MatrixXd& b) const {
   b = scale_.asDiagonal() * b;
   if (symmetric_)
-    cholesky_.solveInPlace(b);
+    cholesky_->solveInPlace(b);
   else
-    b = lu_.solve(b);
+    b = lu_->solve(b);
   b = scale_.asDiagonal() * b;
 }
 

@@ -2,16 +2,23 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <Eigen/LU>
+#include <optional>
 
 namespace osculate::la {
 
-/// Factors of a full matrix, scaled by the square roots of the largest entries of its rows.
+/// Factors of a full matrix, scaled by the square roots of the largest entries of its rows, in the
+/// place of the matrix: memory is asked for where the size changes.
 ///
 /// Tested by  tests/unit/la/test_condensed.cpp, test_eliminated.cpp
 class DenseFactors {
  public:
+  DenseFactors() = default;
+  DenseFactors(const DenseFactors&) = delete;
+  DenseFactors& operator=(const DenseFactors&) = delete;
+  /// To be filled before each call of `factor`, which destroys it.
+  [[nodiscard]] Eigen::MatrixXd& matrix() { return matrix_; }
   /// False: singular; of symmetric kinds also where it is not positive definite.
-  bool factor(Eigen::MatrixXd s, bool symmetric);
+  bool factor(bool symmetric);
   void solve(Eigen::MatrixXd& b) const;
   /// Smallest pivot beside the largest one.
   [[nodiscard]] double pivot_ratio() const { return ratio_; }
@@ -19,8 +26,9 @@ class DenseFactors {
   [[nodiscard]] const Eigen::VectorXd& scale() const { return scale_; }
 
  private:
-  Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
-  Eigen::LLT<Eigen::MatrixXd> cholesky_;
+  Eigen::MatrixXd matrix_;
+  std::optional<Eigen::PartialPivLU<Eigen::Ref<Eigen::MatrixXd>>> lu_;
+  std::optional<Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>>> cholesky_;
   Eigen::VectorXd scale_;
   bool symmetric_ = false;
   double ratio_ = 0;

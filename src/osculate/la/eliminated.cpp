@@ -45,7 +45,8 @@ struct Eliminated::Impl {
   int taken = -1;  ///< count of `inside` when `keep` was called
   Eigen::MatrixXd constant;
   bool symmetric = false;
-  std::unique_ptr<DenseFactors> factors;
+  DenseFactors factors;
+  bool factored = false;    ///< `factors` are those of `first`
   SparseMatrix first, now;  ///< what was factored, and what is solved for
   std::vector<Index> rows;  ///< that differ
   Eigen::MatrixXd changes;  ///< D
@@ -65,7 +66,7 @@ struct Eliminated::Impl {
 };
 
 bool Eliminated::Impl::substitute(Eigen::MatrixXd& x) const {
-  factors->solve(x);
+  factors.solve(x);
   if (!rows.empty()) x -= along * small.solve(changes * x);
   return x.allFinite();
 }
@@ -73,8 +74,8 @@ bool Eliminated::Impl::substitute(Eigen::MatrixXd& x) const {
 /// At most half of the digits are lost.
 bool Eliminated::Impl::accurate() const {
   constexpr double harmless = 1e-9, digits_left = 1e-6;
-  if (rows.empty() && factors->pivot_ratio() > harmless) return true;
-  const Eigen::VectorXd scale = factors->scale().cwiseInverse();
+  if (rows.empty() && factors.pivot_ratio() > harmless) return true;
+  const Eigen::VectorXd scale = factors.scale().cwiseInverse();
   const auto solve = [this](Eigen::VectorXd& x) {
     Eigen::MatrixXd as_matrix = x;
     if (!substitute(as_matrix)) return false;
@@ -89,21 +90,18 @@ bool Eliminated::Impl::accurate() const {
 bool Eliminated::Impl::factor_all() {
   rows.clear();
   first = now;
-  factors = std::make_unique<DenseFactors>();
-  Eigen::MatrixXd s = constant;
+  Eigen::MatrixXd& s = factors.matrix();
+  s = constant;
   add_entries(now, symmetric, s);
-  if (s.allFinite() && factors->factor(std::move(s), symmetric) && accurate()) {
-    ++count.factored;
-    return true;
-  }
-  factors.reset();
-  return false;
+  factored = s.allFinite() && factors.factor(symmetric) && accurate();
+  if (factored) ++count.factored;
+  return factored;
 }
 
 /// Few rows that have changed. False: too many, or an update loses digits.
 bool Eliminated::Impl::update() {
   constexpr std::size_t worth_it = 8;
-  if (!factors || symmetric) return false;
+  if (!factored || symmetric) return false;
   rows.clear();
   for (Index i = 0; i < now.n; ++i)
     if (!same_row(now, first, i)) rows.push_back(i);
@@ -121,7 +119,7 @@ bool Eliminated::Impl::update() {
       changes(r, first.column[at(e)]) -= first.value[at(e)];
   }
   if (!changes.allFinite()) return false;
-  factors->solve(along);
+  factors.solve(along);
   small.compute(Eigen::MatrixXd::Identity(rank, rank) + changes * along);
   if (!accurate()) return false;
   ++count.updated;
@@ -143,7 +141,7 @@ void Eliminated::keep(const SparseMatrix& k, Symmetry symmetry, std::span<const 
   }
   s.taken = s.inside.count();
   s.symmetric = symmetry != Symmetry::unsymmetric;
-  s.factors.reset();
+  s.factored = false;
   s.constant = s.inside.complement();
   SparseMatrix few;
   take_out(k, c, few);
@@ -153,8 +151,9 @@ void Eliminated::keep(const SparseMatrix& k, Symmetry symmetry, std::span<const 
 void Eliminated::forget() {
   Impl& s = *impl_;
   s.taken = -1;
-  s.factors.reset();
-  for (Eigen::MatrixXd* const m : {&s.constant, &s.changes, &s.along}) m->resize(0, 0);
+  s.factored = false;
+  for (Eigen::MatrixXd* const m : {&s.constant, &s.changes, &s.along, &s.factors.matrix()})
+    m->resize(0, 0);
   s.first = s.now = {};
 }
 
@@ -176,7 +175,7 @@ bool Eliminated::expand(const Eigen::VectorXd& x_c, Eigen::VectorXd& x) {
   return x.allFinite();
 }
 
-void Eliminated::begin_anew() { impl_->factors.reset(); }
+void Eliminated::begin_anew() { impl_->factored = false; }
 
 FactorReport Eliminated::factor(const SparseMatrix& k, std::uint64_t /*pattern_version*/,
                                 Symmetry /*symmetry*/) {
@@ -199,7 +198,7 @@ SolveStatus Eliminated::solve(Eigen::VectorXd& rhs) {
   Impl& s = *impl_;
   const Timed watch(s.seconds);
   constexpr double good = 1e-12, good_enough = 1e-8;
-  if (!s.factors || rhs.size() != s.now.n || !rhs.allFinite()) return SolveStatus::failed;
+  if (!s.factored || rhs.size() != s.now.n || !rhs.allFinite()) return SolveStatus::failed;
   Eigen::MatrixXd x = rhs;
   if (!s.substitute(x)) return SolveStatus::failed;
   const double size = rhs.stableNorm();

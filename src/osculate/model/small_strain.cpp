@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "osculate/core/dense.hpp"
 #include "osculate/model/bulk.hpp"
@@ -14,9 +15,10 @@
 namespace osculate::model {
 namespace {
 
-/// Gradient of the displacements over one cell; zero where the nodes span no volume.
+/// Gradient of the displacements over one cell, and how large it is of nodes that move by 1; zero
+/// where the nodes span no volume.
 template <int Dim>
-Mat<Dim, Dim> mean_gradient(const CellPlaces<Dim>& cell) {
+std::pair<Mat<Dim, Dim>, double> mean_gradient(const CellPlaces<Dim>& cell) {
   const Vec<Dim> middle = cell.reference.colwise().mean().transpose();
   const Vec<Dim> way = cell.displacement.colwise().mean().transpose();
   Mat<Dim, Dim> spread = Mat<Dim, Dim>::Zero(), carried = spread;
@@ -25,8 +27,11 @@ Mat<Dim, Dim> mean_gradient(const CellPlaces<Dim>& cell) {
     spread += arm * arm.transpose();
     carried += (cell.displacement.row(n).transpose() - way) * arm.transpose();
   }
-  const Mat<Dim, Dim> gradient = carried * spread.inverse();
-  return gradient.allFinite() ? gradient : Mat<Dim, Dim>(Mat<Dim, Dim>::Zero());
+  const Mat<Dim, Dim> inverse = spread.inverse();
+  const Mat<Dim, Dim> gradient = carried * inverse;
+  const double per_motion = std::sqrt(static_cast<double>(cell.reference.rows()) * inverse.trace());
+  if (!gradient.allFinite() || !std::isfinite(per_motion)) return {Mat<Dim, Dim>::Zero(), 0.0};
+  return {gradient, per_motion};
 }
 
 double rotation_of(const Mat<2, 2>& f) {
@@ -47,8 +52,39 @@ double rotation_of(const Mat<3, 3>& f) {
 }  // namespace
 
 template <int Dim>
+bool SmallStrainBound<Dim>::holds(const Eigen::VectorXd& displacements) const {
+  constexpr double limit = 0.09;
+  if (!(gradient <= limit)) return false;
+  Vec<Dim> least = Vec<Dim>::Zero(), most = least;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const Vec<Dim> by = displacements.template segment<Dim>(Dim * nodes[i]) -
+                        u.template segment<Dim>(Dim * static_cast<Eigen::Index>(i));
+    least = i == 0 ? by : least.cwiseMin(by).eval();
+    most = i == 0 ? by : most.cwiseMax(by).eval();
+  }
+  return gradient + per_motion * (most - least).norm() / 2 <= limit;
+}
+
+namespace {
+
+/// The nodes that are marked, and where they are.
+template <int Dim>
+void set_nodes(const std::vector<char>& marked, const BasicState<Dim>& state,
+               SmallStrainBound<Dim>& bound) {
+  for (std::size_t n = 0; n < marked.size(); ++n)
+    if (marked[n] != 0) bound.nodes.push_back(static_cast<Index>(n));
+  bound.u.resize(Dim * static_cast<Eigen::Index>(bound.nodes.size()));
+  for (std::size_t i = 0; i < bound.nodes.size(); ++i)
+    bound.u.template segment<Dim>(Dim * static_cast<Eigen::Index>(i)) =
+        state.u.template segment<Dim>(Dim * bound.nodes[i]);
+}
+
+}  // namespace
+
+template <int Dim>
 void measure_small_strain(const BasicModel<Dim>& model, const BasicState<Dim>& state,
-                          std::vector<SmallStrain>& found) {
+                          std::vector<SmallStrain>& found,
+                          std::vector<SmallStrainBound<Dim>>* bounds) {
   std::vector<std::size_t> entry_of(model.sections.size());
   std::size_t entries = 0;
   for (std::size_t s = 0; s < model.sections.size(); ++s) {
@@ -58,17 +94,48 @@ void measure_small_strain(const BasicModel<Dim>& model, const BasicState<Dim>& s
     if (found.size() < entries) found.push_back({section.name});
     found[entry_of[s]].may_be_finite = material::has_finite_form(section.section.law);
   }
+  if (bounds) bounds->assign(entries, {});
+  std::vector<std::vector<char>> marked(bounds ? entries : 0,
+                                        std::vector<char>(model.mesh.nodes.size()));
   for_each_cell(model, [&](const auto& section, const mesh::CellRef& ref, const CellMemory& m) {
     if (section.section.kinematics != solid::Kinematics::small || m.removed) return;
-    SmallStrain& here = found[entry_of[static_cast<std::size_t>(&section - model.sections.data())]];
-    const Mat<Dim, Dim> f =
-        Mat<Dim, Dim>::Identity() +
-        mean_gradient<Dim>(places_of(model, section, cell_nodes(model.mesh, ref).nodes, state.u,
-                                     m.of(state.memory)));
+    const std::size_t entry = entry_of[static_cast<std::size_t>(&section - model.sections.data())];
+    SmallStrain& here = found[entry];
+    const std::span<const Index> nodes = cell_nodes(model.mesh, ref).nodes;
+    const auto [gradient, per_motion] =
+        mean_gradient<Dim>(places_of(model, section, nodes, state.u, m.of(state.memory)));
+    const Mat<Dim, Dim> f = Mat<Dim, Dim>::Identity() + gradient;
     const Mat<Dim, Dim> strain = 0.5 * (f.transpose() * f - Mat<Dim, Dim>::Identity());
     here.strain = std::max(here.strain, strain.norm());
     here.rotation = std::max(here.rotation, rotation_of(f));
+    if (!bounds) return;
+    SmallStrainBound<Dim>& bound = (*bounds)[entry];
+    bound.gradient = std::max(bound.gradient, gradient.norm());
+    bound.per_motion = std::max(bound.per_motion, per_motion);
+    for (const Index n : nodes) marked[entry][static_cast<std::size_t>(n)] = 1;
   });
+  for (std::size_t e = 0; e < marked.size(); ++e) set_nodes(marked[e], state, (*bounds)[e]);
+}
+
+template <int Dim>
+void SmallStrainWatch<Dim>::take(const BasicModel<Dim>& model, int step,
+                                 const BasicState<Dim>& state, std::vector<SmallStrain>& found) {
+  if (step == step_ && std::ranges::all_of(bounds_, [&](const SmallStrainBound<Dim>& bound) {
+        return bound.holds(state.u);
+      }))
+    return;
+  step_ = step;
+  ++measured_;
+  std::vector<SmallStrain> now;
+  measure_small_strain(model, state, now, &bounds_);
+  found.resize(now.size());
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    found[i].section = now[i].section;
+    found[i].may_be_finite = now[i].may_be_finite;
+    if (!now[i].large()) continue;
+    found[i].strain = std::max(found[i].strain, now[i].strain);
+    found[i].rotation = std::max(found[i].rotation, now[i].rotation);
+  }
 }
 
 std::string left_small_strain(const SmallStrain& found) {
@@ -82,7 +149,13 @@ std::string left_small_strain(const SmallStrain& found) {
           : "a material of large rotations (st_venant_kirchhoff) or strains (neo_hooke)");
 }
 
-template void measure_small_strain(const Model&, const State&, std::vector<SmallStrain>&);
-template void measure_small_strain(const Model3&, const State3&, std::vector<SmallStrain>&);
+template struct SmallStrainBound<2>;
+template struct SmallStrainBound<3>;
+template class SmallStrainWatch<2>;
+template class SmallStrainWatch<3>;
+template void measure_small_strain(const Model&, const State&, std::vector<SmallStrain>&,
+                                   std::vector<SmallStrainBound<2>>*);
+template void measure_small_strain(const Model3&, const State3&, std::vector<SmallStrain>&,
+                                   std::vector<SmallStrainBound<3>>*);
 
 }  // namespace osculate::model

@@ -93,7 +93,7 @@ std::vector<std::string> Watch<Dim>::take(const model::BasicSystem<Dim>& system,
     }
   }
   remember_front(state);
-  model::measure_small_strain(system.model(), state, memory.small_strains);
+  small_strain.take(system.model(), progress.step, state, memory.small_strains);
   if (progress.fraction >= 1.0) model::measure_locking(system.model(), state, memory.locking);
   if (progress.fraction >= 1.0)
     add(does_not_last(model.steps[static_cast<std::size_t>(progress.step)].name, record), texts);

@@ -19,6 +19,7 @@ struct Watch {
   std::vector<Vec<Dim>> now{};             ///< configuration of the last increment
   bool moved = false;                      ///< there was an increment
   std::vector<char> told{};                ///< of each pair: of points without a clearance
+  model::SmallStrainWatch<Dim> small_strain{};
 
   /// Before the first increment.
   [[nodiscard]] std::vector<std::string> begin(const model::BasicSystem<Dim>& system,

@@ -56,6 +56,77 @@ void expect_rotations_and_stretches() {
 TEST(SmallStrain, KnowsRotationsAndStretchesInThePlane) { expect_rotations_and_stretches<2>(); }
 TEST(SmallStrain, KnowsRotationsAndStretchesInSpace) { expect_rotations_and_stretches<3>(); }
 
+/// Displacements of cells that are bent, and moved as a whole.
+template <int Dim>
+BasicState<Dim> bent(const BasicModel<Dim>& m, double by, double along) {
+  BasicState<Dim> state;
+  state.u.resize(Dim * static_cast<Eigen::Index>(m.reference.size()));
+  for (std::size_t n = 0; n < m.reference.size(); ++n) {
+    Vec<Dim> u = Vec<Dim>::Constant(along);
+    for (int i = 0; i < Dim; ++i) {
+      u[i] += by * m.reference[n][(i + 1) % Dim] * m.reference[n][0];
+      u[i] += 0.3 * by * ((n + static_cast<std::size_t>(i)) % 2 == 0 ? 1 : -1);
+    }
+    state.u.template segment<Dim>(Dim * static_cast<Eigen::Index>(n)) = u;
+  }
+  return state;
+}
+
+/// In states for which it holds nothing is large.
+template <int Dim>
+void expect_a_bound() {
+  const auto m = block<Dim>({}, elastic<Dim>(100));
+  std::vector<SmallStrain> found;
+  std::vector<SmallStrainBound<Dim>> bounds, then;
+  measure_small_strain<Dim>(m, bent<Dim>(m, 0.01, 0), found, &bounds);
+  ASSERT_EQ(bounds.size(), 1U);
+  EXPECT_GT(bounds[0].gradient, 0);
+  EXPECT_TRUE(bounds[0].holds(bent<Dim>(m, 0.01, 5).u)) << "moved as a whole";
+  int held = 0, large = 0;
+  for (double by = -0.3; by < 0.3; by += 0.001) {
+    const BasicState<Dim> state = bent<Dim>(m, by, 2);
+    std::vector<SmallStrain> now;
+    measure_small_strain<Dim>(m, state, now, &then);
+    large += now[0].large() ? 1 : 0;
+    if (!bounds[0].holds(state.u)) continue;
+    ++held;
+    EXPECT_LE(then[0].gradient, 0.09) << by;
+    EXPECT_FALSE(now[0].large()) << by;
+  }
+  EXPECT_GT(held, 5);
+  EXPECT_GT(large, 5);
+}
+
+TEST(SmallStrain, IsBoundedByHowFarNodesHaveMoved) {
+  expect_a_bound<2>();
+  expect_a_bound<3>();
+}
+
+/// The same is found whichever states are measured, and few of those that are small.
+TEST(SmallStrain, IsWatchedWhereItCanBeLarge) {
+  const auto m = block<2>({}, elastic<2>(100));
+  SmallStrainWatch<2> watch, every;
+  std::vector<SmallStrain> found, of_every, last;
+  int states = 0;
+  for (double by = 0; by < 0.4; by += 0.0004, ++states) {
+    watch.take(m, 0, bent<2>(m, by, 3 * by), found);
+    every.take(m, states, bent<2>(m, by, 3 * by), of_every);  // as if each were a step
+    if (by > 0.03) continue;
+    EXPECT_LT(watch.measured(), 8) << by;
+    EXPECT_EQ(found[0].strain, 0.0);
+  }
+  EXPECT_EQ(every.measured(), states);
+  EXPECT_TRUE(found[0].large());
+  EXPECT_EQ(found[0].strain, of_every[0].strain);
+  EXPECT_EQ(found[0].rotation, of_every[0].rotation);
+  measure_small_strain<2>(m, bent<2>(m, 0.3999, 1), last);
+  EXPECT_NEAR(found[0].strain, last[0].strain, 1e-3);
+  SmallStrainWatch<2> later;  // as of a run that goes on
+  std::vector<SmallStrain> resumed = found;
+  later.take(m, 0, bent<2>(m, 0.01, 0), resumed);
+  EXPECT_EQ(resumed[0].strain, found[0].strain);
+}
+
 TEST(SmallStrain, FiniteKinematicsHaveNoLimit) {
   auto section = elastic<2>(100);
   section.kinematics = solid::Kinematics::finite;
