@@ -148,7 +148,7 @@ void BasicSystem<Dim>::Impl::Explicit::add_contact(double h, double fraction, bo
     active_set[p].mean_onset = h > 0;
     active_set[p].relief = system.contact.relief(pair, fraction);
     pairing::evaluate<Dim>(pair, x, now.pairs[p], system.last.contact[p], active_set[p], far[p],
-                           all);
+                           all, &system.bulk.crew);
     const auto add = [&](const pairing::ContactBlock<Dim>& block) {
       for (int k = 0; k < block.count; ++k)
         system.last.forces.contact.template segment<Dim>(

@@ -88,7 +88,7 @@ BasicSystem<Dim>::Impl::Impl(const BasicModel<Dim>& m, int threads, const core::
       nearly_symmetric(symmetry == la::Symmetry::unsymmetric && constraints.count() == 0 &&
                        !is_unsymmetric(m)),
       ranks(of) {
-  contact.workers.threads = bulk.threads;
+  contact.workers.crew = &bulk.crew;
   last.contact.resize(model.pairs.size());
   last.memory.resize(memory_size(model));
   touched.assign(model.pairs.size(), false);
@@ -134,7 +134,7 @@ void BasicSystem<Dim>::Impl::share(std::span<const pairing::PairState<Dim>> cont
   const std::vector<la::MatrixPlace> grown = grown_by_all();
   bulk.ranks = ranks;
   bulk.shares = shares_of(model, dofs, constraints.count(), owner, ranks->rank(), ranks->count());
-  contact.workers = {bulk.threads, ranks, bulk.shares.seen};
+  contact.workers = {&bulk.crew, ranks, bulk.shares.seen};
   begin_matrix(grown);
 }
 
@@ -144,7 +144,7 @@ void BasicSystem<Dim>::Impl::share_no_more() {
   const std::vector<la::MatrixPlace> grown = grown_by_all();
   bulk.ranks = nullptr;
   contact.workers = {};
-  contact.workers.threads = bulk.threads;
+  contact.workers.crew = &bulk.crew;
   begin_matrix(grown);
 }
 

@@ -115,25 +115,40 @@ double FarPoints<Dim>::way_of_master(Points<Dim> x) const {
 }
 
 template <int Dim>
-void FarPoints<Dim>::choose(const PairDefinition<Dim>& pair, Points<Dim> x, bool all) {
+void FarPoints<Dim>::choose(const PairDefinition<Dim>& pair, Points<Dim> x, bool all,
+                            core::Crew* crew) {
   looked_at_.clear();
   back_.clear();
   if (!may_leave_) return;
   const double of_master = way_of_master(x);
   master_way_ += of_master;
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    Point& point = points_[i];
-    const Vec<Dim> here = place(pair, x, i);
-    point.step = (here - point.before).norm() + of_master;
-    point.before = here;
-    if (point.room >= 0) {
+  choice_.assign(points_.size(), Choice::looked_at);
+  const auto choose_some = [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i) {
+      Point& point = points_[i];
+      const Vec<Dim> here = place(pair, x, i);
+      point.step = (here - point.before).norm() + of_master;
+      point.before = here;
+      if (point.room < 0) continue;
       const double moved = (here - point.at).norm() + (master_way_ - point.master_way);
       const bool open = moved + point.step < point.room;
-      if (open && !all && moved < early * point.room) continue;
+      if (open && !all && moved < early * point.room) {
+        choice_[i] = Choice::left_out;
+        continue;
+      }
       point.room = -1;
-      if (!open && !pair.filter.limited()) back_.push_back(i);
+      if (!open && !pair.filter.limited()) choice_[i] = Choice::first_where_it_was;
     }
+  };
+  constexpr std::size_t worth_it = 32;
+  if (crew)
+    crew->share_runs(points_.size(), worth_it, choose_some);
+  else
+    choose_some(0, points_.size());
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    if (choice_[i] == Choice::left_out) continue;
     looked_at_.push_back(i);
+    if (choice_[i] == Choice::first_where_it_was) back_.push_back(i);
   }
   looks_ += looked_at_.size();
   looks_back_ += back_.size();
@@ -181,11 +196,11 @@ void FarPoints<Dim>::leave(const PairDefinition<Dim>& pair, const PairEvaluation
 template <int Dim>
 void evaluate(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Dim>& committed,
               PairEvaluation<Dim>& out, const ActiveSet<Dim>& active_set, FarPoints<Dim>& far,
-              bool all) {
+              bool all, core::Crew* crew) {
   if (!far.begun_) far.begin(pair, x, !committed.overlap.empty());
-  far.choose(pair, x, all);
+  far.choose(pair, x, all, crew);
   if (!far.may_leave_) {
-    evaluate(pair, x, committed, false, out, active_set);
+    evaluate<Dim>(pair, x, committed, false, out, active_set, nullptr, {}, Workers{crew});
     return;
   }
   Laps laps;
@@ -203,19 +218,28 @@ void evaluate(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Di
   }
   if (!far.looked_at_.empty()) refresh(pair, x, false, out, &far.looked_at_);
   laps.add_to(out.seconds.search);
-  std::size_t back = 0;
-  for (const std::size_t i : far.looked_at_) {
-    const bool recalled = back < far.back_.size() && far.back_[back] == i;
+  const auto look_at = [&](std::size_t k, Laps& of_point, PairSeconds& seconds) {
+    const std::size_t i = far.looked_at_[k];
+    const auto back = std::ranges::lower_bound(far.back_, i);
+    const bool recalled = back != far.back_.end() && *back == i;
     const contact::PointHistory<Dim>& history =
-        recalled ? far.recalled_[back++] : committed.points[i];
+        recalled ? far.recalled_[static_cast<std::size_t>(back - far.back_.begin())]
+                 : committed.points[i];
     PointContext<Dim> context = context_of<Dim>(pair, active_set, nullptr, i);
     ProjectedPoint<Dim> projected =
         project_point(pair, out, x, i, history, kept_facet<Dim>(pair.master, context.active, x),
                       derivatives_needed(pair, false));
-    evaluate_slave_point(pair, x, history, active_set, projected, context, false, i, out, laps,
-                         out.seconds);
+    evaluate_slave_point(pair, x, history, active_set, projected, context, false, i, out, of_point,
+                         seconds);
     if (!all) far.leave(pair, out, i, out.points[i].history);
-  }
+  };
+  const auto together = [&](std::size_t k) {
+    return on_same_nodes(pair.slave.points[far.looked_at_[k - 1]],
+                         pair.slave.points[far.looked_at_[k]]);
+  };
+  // Blocks of a smooth master's facets are the sum of points.
+  share_points(out.master_blocks == 0 ? crew : nullptr, 0, far.looked_at_.size(), together,
+               out.seconds, look_at);
   for (const Index n : far.kept_)
     far.past_[static_cast<std::size_t>(n)] = x[static_cast<std::size_t>(n)];
 }
@@ -223,8 +247,10 @@ void evaluate(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Di
 template class FarPoints<2>;
 template class FarPoints<3>;
 template void evaluate<2>(const PairDefinition<2>&, Points<2>, const PairState<2>&,
-                          PairEvaluation<2>&, const ActiveSet<2>&, FarPoints<2>&, bool);
+                          PairEvaluation<2>&, const ActiveSet<2>&, FarPoints<2>&, bool,
+                          core::Crew*);
 template void evaluate<3>(const PairDefinition<3>&, Points<3>, const PairState<3>&,
-                          PairEvaluation<3>&, const ActiveSet<3>&, FarPoints<3>&, bool);
+                          PairEvaluation<3>&, const ActiveSet<3>&, FarPoints<3>&, bool,
+                          core::Crew*);
 
 }  // namespace osculate::pairing

@@ -42,7 +42,7 @@ class FarPoints {
  private:
   template <int D>
   friend void evaluate(const PairDefinition<D>&, Points<D>, const PairState<D>&, PairEvaluation<D>&,
-                       const ActiveSet<D>&, FarPoints<D>&, bool);
+                       const ActiveSet<D>&, FarPoints<D>&, bool, core::Crew*);
   struct Point {
     Vec<Dim> at, before;  ///< when it was looked at, and in the last evaluation
     double room = -1;     ///< d_0 - d_c; negative: it is looked at
@@ -52,7 +52,7 @@ class FarPoints {
   void begin(const PairDefinition<Dim>& pair, Points<Dim> x, bool relieved);
   [[nodiscard]] Vec<Dim> place(const PairDefinition<Dim>& pair, Points<Dim> x, std::size_t i) const;
   /// Sets who is looked at, and who first where it was.
-  void choose(const PairDefinition<Dim>& pair, Points<Dim> x, bool all);
+  void choose(const PairDefinition<Dim>& pair, Points<Dim> x, bool all, core::Crew* crew);
   /// Lets a point go that has been looked at, if it is far enough away.
   void leave(const PairDefinition<Dim>& pair, const PairEvaluation<Dim>& work, std::size_t i,
              contact::PointHistory<Dim>& history);
@@ -63,6 +63,8 @@ class FarPoints {
   bool begun_ = false, of_shape_ = false, may_leave_ = false;
   std::vector<Point> points_;
   std::vector<std::size_t> looked_at_, back_;
+  enum class Choice : char { left_out, looked_at, first_where_it_was };
+  std::vector<Choice> choice_;                        ///< by point
   std::vector<contact::PointHistory<Dim>> recalled_;  ///< of `back_`
   std::vector<Index> kept_;                           ///< nodes of which `past_` is known
   std::vector<Vec<Dim>> past_;                        ///< positions in the last evaluation
@@ -71,12 +73,13 @@ class FarPoints {
 };
 
 /// As `evaluate` without tangent and multipliers, but for points that are left out: their results
-/// stay those of an open point. `all`: nobody is left out, as the places are asked for.
+/// stay those of an open point. `all`: nobody is left out, as the places are asked for. By any
+/// number of threads the same bits.
 ///
 /// Requires   `committed`: the histories of `out` in the last evaluation, unless `far` forgot it
 template <int Dim>
 void evaluate(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Dim>& committed,
               PairEvaluation<Dim>& out, const ActiveSet<Dim>& active_set, FarPoints<Dim>& far,
-              bool all);
+              bool all, core::Crew* crew = nullptr);
 
 }  // namespace osculate::pairing

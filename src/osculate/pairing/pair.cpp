@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "osculate/core/error.hpp"
-#include "osculate/core/pieces.hpp"
 #include "osculate/pairing/combinations.hpp"
 #include "osculate/pairing/mortar.hpp"
 #include "osculate/pairing/pair_points.hpp"
@@ -93,16 +92,18 @@ template <int Dim>
 class PointLoop {
  public:
   PointLoop(const PairDefinition<Dim>& pair, PairEvaluation<Dim>& out, const BlockTaker<Dim>& take,
-            int threads)
+            core::Crew* crew)
       : points_(pair.slave.points), out_(out), take_(take) {
     // Blocks of the master's facets are the sum of points.
-    if (out.master_blocks == 0) threads_ = threads;
+    if (out.master_blocks == 0) crew_ = crew;
   }
 
   /// evaluate(i, laps, seconds) for every point.
   template <class Evaluate>
   void run(const Evaluate& evaluate) {
-    const std::size_t length = threads_ > 1 ? 64 * piece : take_ ? piece : points_.size();
+    const std::size_t length = crew_ && crew_->threads() > 1 ? 64 * piece
+                               : take_                       ? piece
+                                                             : points_.size();
     for (std::size_t end = 0; begin_ < points_.size(); begin_ = end) {
       end = end_of_facets(begin_, length);
       lend(end);
@@ -147,21 +148,8 @@ class PointLoop {
   }
   template <class Evaluate>
   void evaluate_run(std::size_t end, const Evaluate& evaluate) {
-    const auto some = [&](std::size_t from, std::size_t to, PairSeconds& seconds) {
-      Laps laps;
-      for (std::size_t i = from; i < to; ++i) evaluate(i, laps, seconds);
-    };
-    constexpr std::size_t worth_it = 8 * piece;  // what threads do while one more is started
-    if (threads_ == 1 || end - begin_ < worth_it) return some(begin_, end, out_.seconds);
-    std::vector<std::size_t> cuts{begin_};
-    while (cuts.back() < end) cuts.push_back(end_of_facets(cuts.back(), piece));
-    std::vector<PairSeconds> seconds(cuts.size());
-    core::for_pieces(cuts.size() - 1, 1, threads_,
-                     [&](std::size_t p, std::size_t) { some(cuts[p], cuts[p + 1], seconds[p]); });
-    for (const PairSeconds& of_piece : seconds) {
-      out_.seconds.projection += of_piece.projection / threads_;
-      out_.seconds.evaluation += of_piece.evaluation / threads_;
-    }
+    const auto together = [&](std::size_t i) { return on_same_nodes(points_[i - 1], points_[i]); };
+    share_points(crew_, begin_, end, together, out_.seconds, evaluate);
   }
   void hand_over(std::size_t end) {
     take_(std::span<const ContactBlock<Dim>>(out_.blocks).subspan(begin_, end - begin_));
@@ -170,7 +158,7 @@ class PointLoop {
   const std::vector<SlavePoint<Dim>>& points_;
   PairEvaluation<Dim>& out_;
   const BlockTaker<Dim>& take_;
-  int threads_ = 1;
+  core::Crew* crew_ = nullptr;
   std::size_t begin_ = 0;
 };
 
@@ -206,7 +194,7 @@ void evaluate(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Di
     places = places_by_all<Dim>(all_points(pair), workers, place_of);
     laps.add_to(out.seconds.projection);
   }
-  PointLoop<Dim> loop(pair, out, take, workers.threads);
+  PointLoop<Dim> loop(pair, out, take, workers.crew);
   loop.run([&](std::size_t i, Laps& of_point, PairSeconds& seconds) {
     PointContext<Dim> context = context_of(pair, active_set, multipliers, i);
     if (!committed.overlap.empty()) context.relieved = active_set.relief * committed.overlap[i];

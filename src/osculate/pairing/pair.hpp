@@ -8,6 +8,7 @@
 #include "osculate/contact/law/law.hpp"
 #include "osculate/contact/multiplier.hpp"
 #include "osculate/contact/point_terms.hpp"
+#include "osculate/core/crew.hpp"
 #include "osculate/core/prediction.hpp"
 #include "osculate/core/ranks.hpp"
 #include "osculate/pairing/axes.hpp"
@@ -311,7 +312,7 @@ template <int Dim>
 /// for the places of its part of the points, and has the tangents of those that it sees; all else,
 /// with the same bits, all of them have.
 struct Workers {
-  int threads = 1;
+  core::Crew* crew = nullptr;          ///< null: one thread
   const core::Ranks* ranks = nullptr;  ///< null: this process is alone
   std::span<const char> seen{};  ///< by node: tangents of its blocks are wanted; empty: all of them
 };

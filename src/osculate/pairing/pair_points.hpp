@@ -6,6 +6,7 @@
 #include <chrono>
 #include <vector>
 
+#include "osculate/core/crew.hpp"
 #include "osculate/pairing/master_at.hpp"
 #include "osculate/pairing/pair.hpp"
 #include "osculate/pairing/point_block.hpp"
@@ -30,6 +31,31 @@ class Laps {
  private:
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
+
+/// evaluate(k, laps, seconds) for k from `begin` to before `end`, in pieces by all threads.
+/// together(k): k is to be in the piece of k - 1.
+template <class Together, class Evaluate>
+void share_points(core::Crew* crew, std::size_t begin, std::size_t end, const Together& together,
+                  PairSeconds& seconds, const Evaluate& evaluate) {
+  constexpr std::size_t piece = 16, worth_it = 2 * piece;
+  const auto some = [&](std::size_t from, std::size_t to, PairSeconds& of) {
+    Laps laps;
+    for (std::size_t k = from; k < to; ++k) evaluate(k, laps, of);
+  };
+  if (!crew || crew->threads() == 1 || end - begin < worth_it) return some(begin, end, seconds);
+  std::vector<std::size_t> cuts{begin};
+  while (cuts.back() < end) {
+    std::size_t next = std::min(end, cuts.back() + piece);
+    while (next < end && together(next)) ++next;
+    cuts.push_back(next);
+  }
+  std::vector<PairSeconds> of_pieces(cuts.size() - 1);
+  crew->share(of_pieces.size(), [&](std::size_t p) { some(cuts[p], cuts[p + 1], of_pieces[p]); });
+  for (const PairSeconds& of : of_pieces) {
+    seconds.projection += of.projection / crew->threads();
+    seconds.evaluation += of.evaluation / crew->threads();
+  }
+}
 
 /// Nodes of the largest block there can be.
 template <int Dim>

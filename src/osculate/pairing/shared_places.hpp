@@ -5,7 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "osculate/core/pieces.hpp"
 #include "osculate/pairing/pair.hpp"
 
 namespace osculate::pairing {
@@ -46,10 +45,14 @@ template <int Dim, class Find>
   const auto count = static_cast<std::size_t>(workers.ranks->count()),
              rank = static_cast<std::size_t>(workers.ranks->rank());
   const std::size_t first = of.size() * rank / count, last = of.size() * (rank + 1) / count;
-  core::for_pieces(last - first, piece, workers.threads, [&](std::size_t begin, std::size_t end) {
+  const auto look = [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = first + begin; k < first + end; ++k)
       to_numbers<Dim>(find(of[k]), &numbers[size * k]);
-  });
+  };
+  if (workers.crew)
+    workers.crew->share_runs(last - first, piece, look);
+  else
+    look(0, last - first);
   workers.ranks->sum(numbers);
   std::vector<Projection<Dim>> places(of.size());
   for (std::size_t k = 0; k < of.size(); ++k) places[k] = place_of_numbers<Dim>(&numbers[size * k]);

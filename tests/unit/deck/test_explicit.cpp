@@ -227,6 +227,33 @@ steps: [{name: s, increments: 2, duration: 0.02, dynamics: {scheme: central_diff
   }
 }
 
+/// 161 slave points over facets and over a plane: threads share them.
+TEST(ExplicitImpact, OfManyPointsHasTheSameBitsWithThreads) {
+  const std::string text = R"(osculate: 1
+mesh:
+  generate:
+    low: {box: {x: [-0.2, 1.2], y: [-0.1, 0], elements: [70, 3]}}
+    high: {box: {x: [0, 1], y: [0.004, 0.1], elements: [160, 4]}}
+materials: {soft: {neo_hooke: {E: 100, nu: 0.3, density: 1}}}
+sections: [{on: low, material: soft, element: plane_strain}, {on: high, material: soft, element: plane_strain}]
+rigid: {floor: {line: {point: [0.5, -0.13], normal: [0.04, 1]}}}
+contact:
+  - {name: hit, master: low.top, slave: high.bottom, friction: {coulomb: {mu: 0.2}}}
+  - {name: rest, master: floor, slave: low.bottom, friction: {coulomb: {mu: 0.2}}}
+initial_velocity: [{on: high, vy: -2, vx: 1}]
+steps: [{name: s, increments: 2, duration: 0.02, dynamics: {scheme: central_differences}}]
+)";
+  const Flight one = run_of(text, 1);
+  ASSERT_EQ(one.result.outcome, solve::Outcome::converged) << one.result.message;
+  EXPECT_GT(one.energies.back().contact, 0);
+  for (const int threads : {2, 3}) {
+    const Flight several = run_of(text, threads);
+    EXPECT_EQ(one.result.state.u, several.result.state.u);
+    EXPECT_EQ(one.result.state.rates.velocity, several.result.state.rates.velocity);
+    EXPECT_EQ(one.energies.back().contact, several.energies.back().contact);
+  }
+}
+
 TEST(ExplicitImpact, GoesOnFromTheMiddleWithTheSameBits) {
   const Built built =
       build_text(edited(test_file("explicit.yaml"), "increments: 4", "increments: 8"));

@@ -22,8 +22,8 @@ struct Seen {
   std::size_t looks = 0, back = 0, all = 0, touching = 0, began = 0;
 };
 
-/// Evaluations one after the other, of all points and of those that may be near. Each `period`
-/// evaluations all places are asked for.
+/// Evaluations one after the other, of all points and, by three threads, of those that may be near.
+/// Each `period` evaluations all places are asked for.
 template <int Dim>
 Seen expect_same(const ContactSample<Dim>& sample, int count, int period, double early,
                  const std::function<void(int, std::vector<Vec<Dim>>&)>& move) {
@@ -34,6 +34,7 @@ Seen expect_same(const ContactSample<Dim>& sample, int count, int period, double
   pairing::ActiveSet<Dim> active_set;
   active_set.duration = 1e-3;
   active_set.mean_onset = true;
+  core::Crew threads(3);
   pairing::FarPoints<Dim> far;
   far.early = early;
   Seen seen;
@@ -41,7 +42,7 @@ Seen expect_same(const ContactSample<Dim>& sample, int count, int period, double
     move(step, x);
     const bool all = step % period == period - 1;
     pairing::evaluate<Dim>(pair, x, whole, false, of_whole, active_set);
-    pairing::evaluate<Dim>(pair, x, some, of_some, active_set, far, all);
+    pairing::evaluate<Dim>(pair, x, some, of_some, active_set, far, all, &threads);
     EXPECT_TRUE(far.leaves_out());
     for (std::size_t i = 0; i < of_whole.points.size(); ++i) {
       const pairing::PointResult<Dim>&a = of_whole.points[i], &b = of_some.points[i];
@@ -71,15 +72,15 @@ Seen expect_same(const ContactSample<Dim>& sample, int count, int period, double
 /// Between -1 and 1, of a number.
 double noise(double k) { return std::sin(12.9898 * k + 78.233 * std::sin(k)); }
 
-/// A tumbling patch of 7 x 7 nodes over a shape that turns and moves. Now and then it goes forty
+/// A tumbling patch of 9 x 9 nodes over a shape that turns and moves. Now and then it goes forty
 /// times as far as before in one step.
 ContactSample<3> patch_over(const geometry::Surface& shape) {
-  constexpr int side = 7;
+  constexpr int side = 9;
   ContactSample<3> s;
   s.x = {Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
   s.pair.master.facets.push_back(pairing::shape_facet(shape, {0, 1, 2, 3}));
   for (int j = 0; j < side; ++j)
-    for (int i = 0; i < side; ++i) s.x.emplace_back(0.3 * i - 0.9, 0.3 * j - 0.9, 1);
+    for (int i = 0; i < side; ++i) s.x.emplace_back(0.225 * i - 0.9, 0.225 * j - 0.9, 1);
   pairing::FacetSurface patch;
   const auto node = [](int i, int j) { return static_cast<Index>(4 + side * j + i); };
   for (int j = 0; j + 1 < side; ++j)

@@ -381,6 +381,7 @@ std::size_t expect_same_bits(const std::vector<pairing::ContactBlock<Dim>>& bloc
 /// Blocks that are handed over have the bits of those that stay, by any number of threads.
 template <int Dim>
 void expect_the_same_blocks(const Choice& choice, int threads) {
+  core::Crew crew(threads);
   SCOPED_TRACE(choice.name);
   Cuts pieces;
   for (int i = 0; i < 220; ++i) pieces.push_back(0.0127 * i + 0.1);
@@ -397,7 +398,7 @@ void expect_the_same_blocks(const Choice& choice, int threads) {
                            [&](std::span<const pairing::ContactBlock<Dim>> blocks) {
                              taken.blocks.insert(taken.blocks.end(), blocks.begin(), blocks.end());
                            },
-                           {.threads = threads});
+                           {.crew = &crew});
     const std::size_t with_tangent = expect_same_bits<Dim>(taken.blocks, c.now.blocks);
     if (choice.mortar) continue;  // their terms are of other nodes
     EXPECT_GT(with_tangent, 100u);
@@ -408,8 +409,7 @@ void expect_the_same_blocks(const Choice& choice, int threads) {
       EXPECT_LT(handing.spare.size(), 26u);  // few tangents
     }
     pairing::PairEvaluation<Dim> staying;
-    pairing::evaluate<Dim>(c.pair, c.x, c.state, true, staying, {}, nullptr, {},
-                           {.threads = threads});
+    pairing::evaluate<Dim>(c.pair, c.x, c.state, true, staying, {}, nullptr, {}, {.crew = &crew});
     expect_same_bits<Dim>(staying.blocks, c.now.blocks);
   }
 }

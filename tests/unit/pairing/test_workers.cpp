@@ -72,7 +72,7 @@ void expect_the_bits_of_one(const ContactSample<Dim>& s) {
       for (int twice = 0; twice < 2; ++twice) {  // with the buffers of one that saw all of them
         const std::span<const char> of = twice == 0 ? std::span<const char>() : sees;
         pairing::evaluate<Dim>(s.pair, s.x, s.committed, true, here, {}, nullptr, {},
-                               {1, &ranks, of});
+                               {nullptr, &ranks, of});
       }
       const int found = expect_parts<Dim>(here, alone, static_cast<Index>(seen));
       if (ranks.rank() == 0) tangents += found;
@@ -133,7 +133,9 @@ TEST(Workers, SeveralProcessesLookFar) {
   EXPECT_EQ(alone.front(), std::numeric_limits<double>::infinity());
   EXPECT_NEAR(alone[s.pair.slave.points.size()], 0.8, 1e-12);
   for (const int count : {2, 3, 5})
-    as_ranks(count, [&](const core::Ranks& ranks) { EXPECT_EQ(gaps({1, &ranks, {}}), alone); });
+    as_ranks(count, [&](const core::Ranks& ranks) {
+      EXPECT_EQ(gaps({nullptr, &ranks, {}}), alone);
+    });
 }
 
 }  // namespace
