@@ -10,8 +10,8 @@ namespace osculate::io {
 /// A file that grows by whole pieces: a piece that cannot be written (disk full) is taken back, so
 /// that the file ends with the last good one. With a tail it ends with that after every piece: the
 /// next piece takes its place, in one write, and is followed by it. A process that is killed may be
-/// stopped in a write where a page of the file ends: a piece that goes beyond a page (one in about
-/// 4 kB) has the file written beside and put in its place.
+/// stopped in a write where a page of the file ends: where one goes beyond a page (one or
+/// two in 4 kB) the file is written beside and put in its place.
 ///
 /// Errors     WriteError
 /// Tested by  tests/unit/io/test_chunk_file.cpp
