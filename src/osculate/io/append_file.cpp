@@ -55,9 +55,9 @@ void AppendFile::replace(std::string_view piece) {
     done += static_cast<std::size_t>(n);
   }
   write_file(path_, all.append(piece) + tail_);
-  const int file = ::open(path_.c_str(), O_RDWR | O_CLOEXEC);
-  if (file < 0) throw WriteError(path_, "cannot write", errno);
-  ::close(std::exchange(file_, file));
+  ::close(std::exchange(file_, -1));
+  file_ = ::open(path_.c_str(), O_RDWR | O_CLOEXEC);
+  if (file_ < 0) throw WriteError(path_, "cannot write", errno);
   size_ += piece.size();
 }
 

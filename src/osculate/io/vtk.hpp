@@ -78,8 +78,9 @@ struct PvdEntry {
 /// Writes a ParaView collection. Parts are numbered in the order of their first appearance.
 void write_pvd(const std::string& path, std::span<const PvdEntry> entries);
 
-/// The same for a collection that grows while it is read: whole at any moment, also where the process
-/// is killed, and most calls cost no more than what they add.
+/// The same for a collection that grows while it is read: whole at any moment, also where the
+/// process is killed. A call costs what it adds, or what the file has where that goes beyond one of
+/// its pages.
 ///
 /// Errors     WriteError
 /// Tested by  tests/unit/io/test_vtk.cpp

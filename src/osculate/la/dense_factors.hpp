@@ -7,7 +7,7 @@
 namespace osculate::la {
 
 /// Factors of a full matrix, scaled by the square roots of the largest entries of its rows, in the
-/// place of the matrix: memory is asked for where the size changes.
+/// place of the matrix.
 ///
 /// Tested by  tests/unit/la/test_condensed.cpp, test_eliminated.cpp
 class DenseFactors {

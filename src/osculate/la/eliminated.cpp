@@ -88,9 +88,11 @@ bool Eliminated::Impl::accurate() const {
 }
 
 bool Eliminated::Impl::factor_all() {
+  factored = false;
   rows.clear();
   first = now;
   Eigen::MatrixXd& s = factors.matrix();
+  if (s.rows() != constant.rows()) s = {};  // what is there goes first
   s = constant;
   add_entries(now, symmetric, s);
   factored = s.allFinite() && factors.factor(symmetric) && accurate();

@@ -67,12 +67,8 @@ bool SmallStrainBound<Dim>::holds(const Eigen::VectorXd& displacements) const {
 
 namespace {
 
-/// The nodes that are marked, and where they are.
 template <int Dim>
-void set_nodes(const std::vector<char>& marked, const BasicState<Dim>& state,
-               SmallStrainBound<Dim>& bound) {
-  for (std::size_t n = 0; n < marked.size(); ++n)
-    if (marked[n] != 0) bound.nodes.push_back(static_cast<Index>(n));
+void set_places(const BasicState<Dim>& state, SmallStrainBound<Dim>& bound) {
   bound.u.resize(Dim * static_cast<Eigen::Index>(bound.nodes.size()));
   for (std::size_t i = 0; i < bound.nodes.size(); ++i)
     bound.u.template segment<Dim>(Dim * static_cast<Eigen::Index>(i)) =
@@ -95,8 +91,7 @@ void measure_small_strain(const BasicModel<Dim>& model, const BasicState<Dim>& s
     found[entry_of[s]].may_be_finite = material::has_finite_form(section.section.law);
   }
   if (bounds) bounds->assign(entries, {});
-  std::vector<std::vector<char>> marked(bounds ? entries : 0,
-                                        std::vector<char>(model.mesh.nodes.size()));
+  std::vector<std::size_t> named_by(bounds ? model.mesh.nodes.size() : 0, entries);
   for_each_cell(model, [&](const auto& section, const mesh::CellRef& ref, const CellMemory& m) {
     if (section.section.kinematics != solid::Kinematics::small || m.removed) return;
     const std::size_t entry = entry_of[static_cast<std::size_t>(&section - model.sections.data())];
@@ -112,9 +107,12 @@ void measure_small_strain(const BasicModel<Dim>& model, const BasicState<Dim>& s
     SmallStrainBound<Dim>& bound = (*bounds)[entry];
     bound.gradient = std::max(bound.gradient, gradient.norm());
     bound.per_motion = std::max(bound.per_motion, per_motion);
-    for (const Index n : nodes) marked[entry][static_cast<std::size_t>(n)] = 1;
+    for (const Index n : nodes)  // sections are visited one after the other
+      if (std::exchange(named_by[static_cast<std::size_t>(n)], entry) != entry)
+        bound.nodes.push_back(n);
   });
-  for (std::size_t e = 0; e < marked.size(); ++e) set_nodes(marked[e], state, (*bounds)[e]);
+  if (bounds)
+    for (SmallStrainBound<Dim>& bound : *bounds) set_places(state, bound);
 }
 
 template <int Dim>

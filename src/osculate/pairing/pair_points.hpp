@@ -50,11 +50,19 @@ void share_points(core::Crew* crew, std::size_t begin, std::size_t end, const To
     cuts.push_back(next);
   }
   std::vector<PairSeconds> of_pieces(cuts.size() - 1);
+  double all = 0;
+  Laps laps;
   crew->share(of_pieces.size(), [&](std::size_t p) { some(cuts[p], cuts[p + 1], of_pieces[p]); });
+  laps.add_to(all);
+  double projection = 0, evaluation = 0;
   for (const PairSeconds& of : of_pieces) {
-    seconds.projection += of.projection / crew->threads();
-    seconds.evaluation += of.evaluation / crew->threads();
+    projection += of.projection;
+    evaluation += of.evaluation;
   }
+  const double sum = projection + evaluation;
+  if (!(sum > 0)) return;
+  seconds.projection += all * projection / sum;
+  seconds.evaluation += all * evaluation / sum;
 }
 
 /// Nodes of the largest block there can be.

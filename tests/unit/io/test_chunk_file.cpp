@@ -146,6 +146,33 @@ TEST_F(ChunkFile, AnAppendFileKeepsAsMuchAsItIsTold) {
   EXPECT_EQ(read(), "");
 }
 
+/// Of a process that is killed a write may end where a page of the file does.
+TEST_F(ChunkFile, AnAppendFileWithATailIsReplacedWhereAPageEnds) {
+  constexpr std::size_t page = 4096;
+  const std::string tail = "the end\n", link = path_ + ".same";
+  std::string all = "head\n";
+  write(all + tail);
+  AppendFile file(path_, all.size(), tail);
+  fs::create_hard_link(path_, link);
+  int replaced = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const std::string before = read(), piece = std::to_string(i) + " of 3000\n";
+    const bool within = all.size() / page == (all.size() + piece.size() + tail.size() - 1) / page;
+    file.append(piece);
+    all += piece;
+    ASSERT_EQ(read(), all + tail);
+    ASSERT_EQ(fs::hard_link_count(path_) > 1, within) << i;
+    if (within) continue;
+    ++replaced;
+    std::ostringstream old;
+    old << std::ifstream(link, std::ios::binary).rdbuf();
+    EXPECT_EQ(old.str(), before);
+    fs::remove(link);
+    fs::create_hard_link(path_, link);
+  }
+  EXPECT_GE(replaced, static_cast<int>(all.size() / page));
+}
+
 TEST_F(ChunkFile, AnAppendFileThatCannotBeWrittenSaysSo) {
   try {
     AppendFile file("/dev/full");

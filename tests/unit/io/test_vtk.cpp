@@ -392,33 +392,6 @@ TEST(Pvd, GrowsInItsPlaceAndIsWholeAfterEachFrame) {
   for (const std::string& name : {path, whole, path + ".same"}) std::filesystem::remove(name);
 }
 
-TEST(Pvd, IsReplacedWhereAPageOfTheFileEnds) {
-  const std::string path = temp("pages.pvd"), whole = temp("whole.pvd"), link = path + ".same";
-  std::vector<PvdEntry> entries;
-  for (int i = 0; i < 300; ++i)
-    entries.push_back({static_cast<double>(i), "body", "bodies_" + std::to_string(i) + ".vtu"});
-  const std::span<const PvdEntry> all(entries);
-  PvdFile grown(path, all.first(1));
-  const std::size_t tail = std::string_view("  </Collection>\n</VTKFile>\n").size(), page = 4096;
-  int replaced = 0;
-  std::filesystem::create_hard_link(path, link);
-  for (std::size_t i = 1; i < entries.size(); ++i) {
-    const std::string before = read_file(path);
-    grown.add(all.subspan(i, 1));
-    write_pvd(whole, all.first(i + 1));
-    ASSERT_EQ(read_file(path), read_file(whole));
-    const bool in_place = std::filesystem::hard_link_count(path) > 1;
-    EXPECT_EQ(in_place, (before.size() - tail) / page == (read_file(path).size() - 1) / page);
-    if (in_place) continue;
-    ++replaced;  // the old file is as it was
-    EXPECT_EQ(read_file(link), before);
-    std::filesystem::remove(link);
-    std::filesystem::create_hard_link(path, link);
-  }
-  EXPECT_GT(replaced, 4);
-  for (const std::string& name : {path, whole, link}) std::filesystem::remove(name);
-}
-
 // ---- failures of the disk
 // ----------------------------------------------------------------------------
 

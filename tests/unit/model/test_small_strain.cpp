@@ -97,6 +97,37 @@ void expect_a_bound() {
   EXPECT_GT(large, 5);
 }
 
+/// Corners that move away from each other: a cell's gradient comes near the bound, as its nodes are
+/// all as far from its middle, in the plane and in space.
+template <int Dim>
+void expect_a_sharp_bound() {
+  const auto m = block<Dim>({}, elastic<Dim>(100));
+  BasicState<Dim> state;
+  state.u.setZero(Dim * static_cast<Eigen::Index>(m.reference.size()));
+  std::vector<SmallStrain> found;
+  std::vector<SmallStrainBound<Dim>> at_rest, then;
+  measure_small_strain<Dim>(m, state, found, &at_rest);
+  EXPECT_EQ(at_rest[0].gradient, 0);
+  EXPECT_TRUE(at_rest[0].holds(state.u));
+  double last = 0;
+  for (double by = 0; at_rest[0].holds(state.u); by += 1e-4) {
+    ASSERT_LT(by, 1);
+    measure_small_strain<Dim>(m, state, found, &then);
+    last = then[0].gradient;
+    for (std::size_t n = 0; n < m.reference.size(); ++n)
+      for (int i = 0; i < Dim; ++i)
+        state.u[Dim * static_cast<Eigen::Index>(n) + i] =
+            (m.reference[n][i] > m.reference[0][i] + 1e-6 ? by : -by);
+  }
+  EXPECT_LE(last, 0.09);
+  EXPECT_GT(last, 0.045);
+}
+
+TEST(SmallStrain, BoundIsNotFarFromWhatThereCanBe) {
+  expect_a_sharp_bound<2>();
+  expect_a_sharp_bound<3>();
+}
+
 TEST(SmallStrain, IsBoundedByHowFarNodesHaveMoved) {
   expect_a_bound<2>();
   expect_a_bound<3>();

@@ -68,11 +68,12 @@ void expect_the_bits_of_one(const ContactSample<Dim>& s) {
     as_ranks(3, [&](const core::Ranks& ranks) {
       std::vector<char> sees(s.x.size(), 0);
       sees[seen] = 1;
+      core::Crew crew(2);
       pairing::PairEvaluation<Dim> here;
       for (int twice = 0; twice < 2; ++twice) {  // with the buffers of one that saw all of them
         const std::span<const char> of = twice == 0 ? std::span<const char>() : sees;
         pairing::evaluate<Dim>(s.pair, s.x, s.committed, true, here, {}, nullptr, {},
-                               {nullptr, &ranks, of});
+                               {&crew, &ranks, of});
       }
       const int found = expect_parts<Dim>(here, alone, static_cast<Index>(seen));
       if (ranks.rank() == 0) tangents += found;
