@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "osculate/cell/shape.hpp"
-#include "osculate/projection/surface_distance.hpp"
+#include "osculate/projection/inside_facet.hpp"
 
 namespace osculate::pairing {
 namespace {
@@ -18,71 +18,6 @@ DistanceJet2 distance_at(const PatchQuery& q, const Vec2& xi) {
   const GregoryJet jet = gregory_jet(cell::is_triangle(q.type), q.points, xi);
   const auto r = [&](std::size_t d) -> Vec3 { return jet[d].head<3>(); };
   return projection::distance_jet2<3>(q.point - r(0), {r(1), r(2)}, {r(3), r(4), r(5)});
-}
-
-/// Distance of a coordinate from the borders of the cell, inwards, in parts of its range.
-std::array<double, 4> room(cell::CellType type, const Vec2& xi) {
-  if (cell::is_triangle(type)) return {xi.y(), 1 - xi.x() - xi.y(), xi.x(), 1};
-  return {0.5 * (1 + xi.y()), 0.5 * (1 - xi.x()), 0.5 * (1 - xi.y()), 0.5 * (1 + xi.x())};
-}
-
-double least_room(cell::CellType type, const Vec2& xi) {
-  const std::array<double, 4> r = room(type, xi);
-  return *std::min_element(r.begin(), r.end());
-}
-
-/// Largest part of the step that stays inside.
-double inside_part(cell::CellType type, const Vec2& xi, const Vec2& step) {
-  const std::array<double, 4> here = room(type, xi), there = room(type, Vec2(xi + step));
-  double part = 1;
-  for (std::size_t e = 0; e < 4; ++e)
-    if (there[e] < 0) part = std::min(part, std::max(here[e], 0.0) / (here[e] - there[e]));
-  return part;
-}
-
-/// Takes full Newton steps that the distance is too coarse to judge (it is flat where it is
-/// smallest: of 1e-16 relative, 1e-8 of the way), while the slope shrinks. Without them the slip is
-/// noisy by that much, and no increment gets below it.
-void polish(const PatchQuery& q, Vec2& xi, DistanceJet2& j) {
-  for (int it = 0; it < 3 && projection::positive(j.bend); ++it) {
-    const Vec2 next_xi = xi + projection::descent(j);
-    if (next_xi == xi || !next_xi.allFinite() || least_room(q.type, next_xi) < 0) return;
-    const DistanceJet2 next = distance_at(q, next_xi);
-    if (!(next.slope.norm() < j.slope.norm())) return;
-    xi = next_xi;
-    j = next;
-  }
-}
-
-/// Safeguarded Newton inside the cell; feature none if the way leads out of it.
-FacetFoot foot_inside(const PatchQuery& q, const Vec2& start) {
-  FacetFoot foot;
-  foot.xi = start;
-  DistanceJet2 j = distance_at(q, foot.xi);
-  constexpr int most = 40;
-  for (int it = 0; it < most; ++it) {
-    Vec2 step = projection::descent(j);
-    if (!step.allFinite()) return foot;
-    if (step.norm() <= 1e-15) break;
-    const double part = inside_part(q.type, foot.xi, step);
-    if (part < 1e-12) return foot;
-    step *= part;
-    DistanceJet2 next = distance_at(q, foot.xi + step);
-    for (int half = 0; half < 30 && next.squared_distance > j.squared_distance * (1 + 1e-14);
-         ++half) {
-      step *= 0.5;
-      next = distance_at(q, foot.xi + step);
-    }
-    if (next.squared_distance > j.squared_distance * (1 + 1e-14)) break;
-    foot.xi += step;
-    j = next;
-    if (part == 1 && step.norm() <= 1e-7) break;
-  }
-  polish(q, foot.xi, j);
-  foot.squared_distance = j.squared_distance;
-  foot.converged = projection::positive(j.bend) || j.slope.norm() <= 1e-12 * j.metric.trace();
-  foot.feature = foot.converged ? Feature::face : Feature::none;
-  return foot;
 }
 
 /// A border as a polynomial of t in 0..1.
@@ -186,36 +121,27 @@ FacetFoot closest_on_patch_edge(const PatchQuery& query, int edge) {
 }
 
 FacetFoot closest_on_patch(const PatchQuery& query, const Vec2& start) {
-  const Vec2 middle = cell::is_triangle(query.type) ? Vec2(1.0 / 3, 1.0 / 3) : Vec2(0, 0);
-  const bool inside = least_room(query.type, start) > 0.01;  // else a little inwards
-  FacetFoot best = foot_inside(query, inside ? start : Vec2(0.98 * start + 0.02 * middle));
-  if (best.feature == Feature::face && least_room(query.type, best.xi) > 0.01) return best;
+  constexpr double last_step = 1e-7, near_border = 0.01;
+  const auto distance = [&](const Vec2& xi) { return distance_at(query, xi); };
+  Vec2 begin = start;
+  if (!(projection::least_room(query.type, start) > near_border))  // a little inwards
+    begin += 0.02 * (projection::middle_of_cell(query.type) - start);
+  FacetFoot best = projection::foot_inside(query.type, distance, begin, last_step);
+  if (best.feature == Feature::face && projection::least_room(query.type, best.xi) > near_border)
+    return best;
   if (best.feature != Feature::face) best = {};
   const int edges = cell::is_triangle(query.type) ? 3 : 4;
   for (int k = 0; k < edges; ++k) {
     const FacetFoot foot = closest_on_patch_edge(query, k);
     if (foot.converged && foot.squared_distance < best.squared_distance * (1 - 1e-14)) best = foot;
   }
+  projection::look_inwards(query.type, distance, last_step, best);
   return best;
 }
 
 bool release_from_patch(const PatchQuery& query, double extension, FacetFoot& foot) {
-  Vec2 xi = foot.xi;
-  DistanceJet2 j = distance_at(query, xi);
-  for (int it = 0; it < 12; ++it) {
-    if (!projection::positive(j.bend)) return false;
-    const Vec2 step = -j.bend.inverse() * j.slope;
-    xi += step;
-    if (!(least_room(query.type, xi) >= -extension)) return false;
-    j = distance_at(query, xi);
-    if (step.norm() <= 1e-15) break;
-  }
-  if (!projection::positive(j.bend)) return false;
-  foot.xi = xi;
-  foot.squared_distance = j.squared_distance;
-  foot.feature = Feature::face;
-  foot.local = -1;
-  return true;
+  return projection::release_along(
+      query.type, [&](const Vec2& xi) { return distance_at(query, xi); }, extension, foot);
 }
 
 }  // namespace osculate::pairing

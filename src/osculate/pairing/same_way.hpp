@@ -1,7 +1,10 @@
 #pragma once
+#include <span>
+#include <type_traits>
 #include <vector>
 
 #include "osculate/pairing/candidate_tree.hpp"
+#include "osculate/pairing/slave_side.hpp"
 
 namespace osculate::pairing {
 

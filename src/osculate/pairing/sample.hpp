@@ -9,6 +9,7 @@
 // says where its sample is and how its gap and slip depend on the nodes. Law, enforcement and
 // active set (response.hpp), history and report (report.hpp), forces and tangent (point_block.hpp)
 // are the same for all.
+#include "osculate/contact/point_terms.hpp"
 #include "osculate/pairing/elastic_predictor.hpp"
 
 namespace osculate::pairing {

@@ -7,7 +7,8 @@
 
 #include "osculate/cell/quadratic_facet.hpp"
 #include "osculate/cell/shape.hpp"
-#include "osculate/projection/surface_distance.hpp"
+#include "osculate/projection/bilinear_distance.hpp"
+#include "osculate/projection/inside_facet.hpp"
 #include "osculate/projection/triangle.hpp"
 
 namespace osculate::projection {
@@ -36,31 +37,6 @@ struct Surface {
     const Vec3& operator()(std::size_t k) const { return of[k]; }
   };
 };
-
-/// How far a point is outside of the reference cell (0 inside), in parts of its range.
-double outside(cell::CellType type, const Vec2& xi) {
-  if (cell::is_triangle(type)) return std::max({0.0, -xi.x(), -xi.y(), xi.x() + xi.y() - 1});
-  return std::max({0.0, 0.5 * (std::abs(xi.x()) - 1), 0.5 * (std::abs(xi.y()) - 1)});
-}
-
-/// Largest part of the step that stays inside.
-double inside_part(cell::CellType type, const Vec2& xi, const Vec2& step) {
-  double part = 1;
-  const auto limit = [&](double room, double way) {
-    if (way > room) part = std::min(part, std::max(room, 0.0) / way);
-  };
-  if (cell::is_triangle(type)) {
-    limit(xi.x(), -step.x());
-    limit(xi.y(), -step.y());
-    limit(1 - xi.x() - xi.y(), step.x() + step.y());
-    return part;
-  }
-  for (Eigen::Index i = 0; i < 2; ++i) {
-    limit(1 - xi[i], step[i]);
-    limit(1 + xi[i], -step[i]);
-  }
-  return part;
-}
 
 /// Grid of starting points with its shape values.
 struct Samples {
@@ -131,52 +107,8 @@ Start nearest_sample(cell::CellType type, std::span<const Vec3> nodes, const Vec
   const std::size_t corners = cell::is_triangle(type) ? 3 : 4;
   for (std::size_t k = 0; k < corners; ++k)
     edge = std::max(edge, (nodes[(k + 1) % corners] - nodes[k]).norm());
-  const Vec2 middle = cell::is_triangle(type) ? Vec2(1.0 / 3, 1.0 / 3) : Vec2(0, 0);
-  return {0.98 * samples.xi[at] + 0.02 * middle, std::sqrt(border) - edge / samples.steps};
-}
-
-/// Takes full Newton steps that the distance is too coarse to judge (it is flat where it is
-/// smallest: of 1e-16 relative, 1e-8 of the way), while the slope shrinks.
-void polish(const Surface& surface, const Vec3& point, Vec2& xi, DistanceJet2& j) {
-  for (int it = 0; it < 3 && positive(j.bend); ++it) {
-    const Vec2 next_xi = xi + descent(j);
-    if (!next_xi.allFinite() || outside(surface.type, next_xi) > 0) return;
-    const DistanceJet2 next = surface.distance_jet2(next_xi, point);
-    if (!(next.slope.norm() < j.slope.norm())) return;
-    xi = next_xi;
-    j = next;
-  }
-}
-
-/// Safeguarded Newton inside the facet. Feature none if the way leads out of it.
-FacetFoot foot_inside(const Surface& surface, const Vec3& point, const Vec2& start) {
-  FacetFoot foot;
-  foot.xi = start;
-  DistanceJet2 j = surface.distance_jet2(foot.xi, point);
-  constexpr int most = 40;
-  for (int it = 0; it < most; ++it) {
-    Vec2 step = descent(j);
-    if (!step.allFinite()) return foot;
-    if (step.norm() <= 1e-15) break;
-    const double part = inside_part(surface.type, foot.xi, step);
-    if (part < 1e-12) return foot;  // pressed against the border: an edge is nearer
-    step *= part;
-    DistanceJet2 next = surface.distance_jet2(foot.xi + step, point);
-    for (int half = 0; half < 30 && next.squared_distance > j.squared_distance * (1 + 1e-14);
-         ++half) {
-      step *= 0.5;
-      next = surface.distance_jet2(foot.xi + step, point);
-    }
-    if (next.squared_distance > j.squared_distance * (1 + 1e-14)) break;
-    foot.xi += step;
-    j = next;
-    if (part == 1 && step.norm() <= 1e-15) break;
-  }
-  polish(surface, point, foot.xi, j);
-  foot.squared_distance = j.squared_distance;
-  foot.converged = positive(j.bend) || j.slope.norm() <= 1e-12 * j.metric.trace();
-  foot.feature = foot.converged ? Feature::face : Feature::none;
-  return foot;
+  return {0.98 * samples.xi[at] + 0.02 * middle_of_cell(type),
+          std::sqrt(border) - edge / samples.steps};
 }
 
 /// The same in closed form.
@@ -188,6 +120,31 @@ FacetFoot foot_inside_triangle(std::span<const Vec3> nodes, const Vec3& point) {
   foot.squared_distance = nearest.squared_distance;
   foot.converged = true;
   foot.feature = Feature::face;
+  return foot;
+}
+
+/// Newton inside a facet of four corners whose distance is convex. Feature none if the way leads
+/// out of it, or takes too long.
+FacetFoot foot_inside_convex(const BilinearDistance& distance) {
+  constexpr int most = 12;
+  constexpr double pressed = 1e-12, small = 1e-12;
+  FacetFoot foot;
+  Vec2 slope = distance.slope(foot.xi);
+  for (int it = 0; it < most; ++it) {
+    const Vec2 step = distance.step(foot.xi, slope);
+    const double part = inside_part(cell::CellType::quad4, foot.xi, step);
+    if (!step.allFinite() || part < pressed) return foot;
+    const Vec2 next_xi = foot.xi + part * step, next = distance.slope(next_xi);
+    if (part == 1 && step.squaredNorm() <= small * small) {  // the rest is rounding
+      if (next.squaredNorm() < slope.squaredNorm()) foot.xi = next_xi;
+      foot.squared_distance = distance.squared_distance(foot.xi);
+      foot.converged = true;
+      foot.feature = Feature::face;
+      return foot;
+    }
+    foot.xi = next_xi;
+    slope = next;
+  }
   return foot;
 }
 
@@ -292,6 +249,18 @@ void compare_border(cell::CellType type, std::span<const Vec3> nodes, const Vec3
   if (edge >= 0) best = foot_at(type, edge, at, nearest);
 }
 
+/// The same as `closest_point` where the distance from a facet of four corners is convex, which
+/// leaves no doubt about the one minimum that there is. Feature none: it is not, or there is doubt.
+FacetFoot closest_on_convex(std::span<const Vec3> nodes, const Vec3& point) {
+  const BilinearDistance distance(nodes[0], nodes[1], nodes[2], nodes[3], point);
+  if (!distance.convex()) return {};
+  FacetFoot best = foot_inside_convex(distance);
+  if (best.feature == Feature::face) return best;
+  best = {};
+  compare_border(cell::CellType::quad4, nodes, point, best);
+  return distance.nothing_inwards(best.xi) ? best : FacetFoot{};
+}
+
 }  // namespace
 
 FacetFoot closest_point_on_edge(cell::CellType type, std::span<const Vec3> nodes, int edge,
@@ -305,39 +274,31 @@ FacetFoot closest_point(cell::CellType type, std::span<const Vec3> nodes, const 
   FacetFoot best;
   if (type == cell::CellType::tri3) {
     best = foot_inside_triangle(nodes, point);
-    if (best.feature == Feature::face) return best;
-  } else {
-    const Start start = nearest_sample(type, nodes, point);
-    best = foot_inside(Surface(type, nodes), point, start.xi);
-    // Nothing on the border can be nearer than this.
-    if (start.border > 0 && best.feature == Feature::face &&
-        best.squared_distance <= start.border * start.border)
-      return best;
+    if (best.feature != Feature::face) compare_border(type, nodes, point, best = {});
+    return best;
   }
+  if (type == cell::CellType::quad4)
+    if (best = closest_on_convex(nodes, point); best.feature != Feature::none) return best;
+  constexpr double last_step = 1e-15;
+  const Surface surface(type, nodes);
+  const auto distance = [&](const Vec2& xi) { return surface.distance_jet2(xi, point); };
+  const Start start = nearest_sample(type, nodes, point);
+  best = foot_inside(type, distance, start.xi, last_step);
+  // Nothing on the border can be nearer than this.
+  if (start.border > 0 && best.feature == Feature::face &&
+      best.squared_distance <= start.border * start.border)
+    return best;
   if (best.feature != Feature::face) best = {};
   compare_border(type, nodes, point, best);
+  look_inwards(type, distance, last_step, best);
   return best;
 }
 
 bool release(cell::CellType type, std::span<const Vec3> nodes, const Vec3& point, double extension,
              FacetFoot& foot) {
   const Surface surface(type, nodes);
-  Vec2 xi = foot.xi;
-  DistanceJet2 j = surface.distance_jet2(xi, point);
-  for (int it = 0; it < 12; ++it) {
-    if (!positive(j.bend)) return false;
-    const Vec2 step = -j.bend.inverse() * j.slope;
-    xi += step;
-    if (!(outside(type, xi) <= extension)) return false;
-    j = surface.distance_jet2(xi, point);
-    if (step.norm() <= 1e-15) break;
-  }
-  if (!positive(j.bend)) return false;
-  foot.xi = xi;
-  foot.squared_distance = j.squared_distance;
-  foot.feature = Feature::face;
-  foot.local = -1;
-  return true;
+  return release_along(
+      type, [&](const Vec2& xi) { return surface.distance_jet2(xi, point); }, extension, foot);
 }
 
 }  // namespace osculate::projection

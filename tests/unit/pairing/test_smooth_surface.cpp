@@ -10,6 +10,8 @@
 
 #include "expect_derivative.hpp"
 #include "osculate/core/error.hpp"
+#include "osculate/pairing/closest_patch.hpp"
+#include "osculate/pairing/gregory.hpp"
 #include "osculate/pairing/smoothing.hpp"
 #include "pair_sample.hpp"
 
@@ -313,6 +315,29 @@ TEST(SmoothSurface, ClosestPoint) {
         EXPECT_NEAR((query.point - foot.r).dot(foot.r1[d].normalized()), 0, 1e-10);
     }
   }
+}
+
+// Points that press obliquely near a border were placed on it.
+TEST(SmoothSurface, NoWayInwardsFromABorderIsDownhill) {
+  std::mt19937 generator(8);
+  std::uniform_real_distribution<double> u(-1, 1);
+  int borders = 0;
+  for (const Skin& s : skins(0.2))
+    for (int i = 0; i < 4000; ++i) {
+      const auto f = static_cast<std::size_t>(i) % s.surface.facets.size();
+      const pairing::SurfaceFacet& facet = s.surface.facets[f];
+      const bool triangle = cell::is_triangle(facet.type);
+      const Vec2 middle = triangle ? Vec2(1.0 / 3, 1.0 / 3) : Vec2(0, 0);
+      const pairing::GregoryPoints points = pairing::patch_points(facet, s.x);
+      const Vec3 p = jet_of(s, f, middle).r + 0.6 * Vec3(u(generator), u(generator), u(generator));
+      const projection::FacetFoot foot = pairing::closest_on_patch({facet.type, points, p}, middle);
+      if (foot.feature != Feature::edge) continue;
+      ++borders;
+      const geometry::SurfaceJet jet = jet_of(s, f, foot.xi);
+      const Vec2 to = middle - foot.xi;
+      EXPECT_LT((p - jet.r).dot(to[0] * jet.r1[0] + to[1] * jet.r1[1]), 1e-7);
+    }
+  EXPECT_GT(borders, 1000);
 }
 
 // Ironing with a smooth punch crawled: so near the surface the distance is too coarse to find the

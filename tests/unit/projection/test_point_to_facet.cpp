@@ -136,6 +136,56 @@ TEST(PointToFacet, IsReleasedALittleBeyondABorder) {
   EXPECT_LT((foot.xi - Vec2(1.04, 0.3)).norm(), 1e-13);
 }
 
+/// Corners and middles of edges that are not where they would be in a regular mesh.
+std::vector<Vec3> distorted(CellType type, double by, std::mt19937& generator) {
+  std::uniform_real_distribution<double> u(-by, by);
+  std::vector<Vec3> nodes = nodes_of(type, 0.2);
+  for (Vec3& x : nodes) x += Vec3(u(generator), u(generator), u(generator));
+  return nodes;
+}
+
+/// Where the distance falls from an edge inwards, the foot is not on the edge: points that press
+/// obliquely on a warped facet, at 0.9 of its range and beyond, were placed on its border.
+TEST(PointToFacet, NoWayInwardsFromAnEdgeIsDownhill) {
+  std::mt19937 generator(5);
+  std::uniform_real_distribution<double> u(-1.6, 1.6);
+  for (const CellType type : types) {
+    int edges = 0;
+    for (int f = 0; f < (testing::sanitized ? 10 : 100); ++f) {
+      const std::vector<Vec3> nodes = distorted(type, 0.3, generator);
+      const Vec2 middle = cell::is_triangle(type) ? Vec2(1.0 / 3, 1.0 / 3) : Vec2(0, 0);
+      for (int i = 0; i < 200; ++i) {
+        const Vec3 p(u(generator), u(generator), i % 2 == 0 ? 0.5 * u(generator) : 0.1);
+        const FacetFoot foot = closest_point(type, nodes, p);
+        if (foot.feature != Feature::edge) continue;
+        ++edges;
+        const cell::FacetShape s = cell::facet_shape(type, foot.xi, 1);
+        Vec3 r = Vec3::Zero(), inwards = Vec3::Zero();
+        for (std::size_t k = 0; k < nodes.size(); ++k) {
+          r += s.n[0][k] * nodes[k];
+          const Vec2 to = middle - foot.xi;
+          inwards += (to[0] * s.n[1][k] + to[1] * s.n[2][k]) * nodes[k];
+        }
+        EXPECT_LT((p - r).dot(inwards), 1e-11) << cell::info(type).name;
+      }
+    }
+    EXPECT_GT(edges, testing::sanitized ? 100 : 1000);
+  }
+}
+
+TEST(PointToFacet, FacetsOfFourCornersThatAreDistortedHaveNoNearerSample) {
+  std::mt19937 generator(7);
+  std::uniform_real_distribution<double> u(-1.6, 1.6);
+  for (int f = 0; f < (testing::sanitized ? 5 : 60); ++f) {
+    const std::vector<Vec3> nodes = distorted(CellType::quad4, 0.3, generator);
+    for (int i = 0; i < 20; ++i) {
+      const Vec3 p(u(generator), u(generator), i % 2 == 0 ? u(generator) : 0.05);
+      const FacetFoot foot = closest_point(CellType::quad4, nodes, p);
+      EXPECT_LE(std::sqrt(foot.squared_distance), brute_force(CellType::quad4, nodes, p) + 1e-12);
+    }
+  }
+}
+
 TEST(PointToFacet, CentreOfCurvatureAndFarPointsStayFinite) {
   for (const CellType type : types) {
     const std::vector<Vec3> nodes = nodes_of(type, 0.5);
