@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "osculate/core/types.hpp"
+#include "osculate/projection/surface_distance.hpp"
 
 namespace osculate::projection {
 
@@ -24,15 +24,15 @@ class BilinearDistance {
         c2_(0.25 * ((d - a) + (c - b))),
         c3_(0.25 * ((a - b) + (c - d))),
         arm_(point - 0.25 * ((a + b) + (c + d))),
-        c11_(c1_.squaredNorm()),
-        c22_(c2_.squaredNorm()),
-        c33_(c3_.squaredNorm()),
-        c12_(c1_.dot(c2_)),
-        c13_(c1_.dot(c3_)),
-        c23_(c2_.dot(c3_)),
-        b1_(arm_.dot(c1_)),
-        b2_(arm_.dot(c2_)),
-        b3_(arm_.dot(c3_)) {}
+        c11_(product(c1_, c1_)),
+        c22_(product(c2_, c2_)),
+        c33_(product(c3_, c3_)),
+        c12_(product(c1_, c2_)),
+        c13_(product(c1_, c3_)),
+        c23_(product(c2_, c3_)),
+        b1_(product(arm_, c1_)),
+        b2_(product(arm_, c2_)),
+        b3_(product(arm_, c3_)) {}
 
   /// Whether the distance certainly bends upwards all over the facet, so that it has one minimum.
   [[nodiscard]] bool convex() const {
@@ -54,6 +54,16 @@ class BilinearDistance {
     return {c11_ + t * (2 * c13_ + t * c33_), c12_ - b3_ + 2 * (c13_ * s + c23_ * t + c33_ * s * t),
             c22_ + s * (2 * c23_ + s * c33_)};
   }
+  [[nodiscard]] DistanceJet2 jet(const Vec2& xi) const {
+    const auto [f11, f12, f22] = bend(xi);
+    const double a12 = c12_ + c13_ * xi[0] + c23_ * xi[1] + c33_ * xi[0] * xi[1];
+    DistanceJet2 j;
+    j.squared_distance = squared_distance(xi);
+    j.slope = slope(xi);
+    j.bend << f11, f12, f12, f22;
+    j.metric << f11, a12, a12, f22;
+    return j;
+  }
   /// Newton's step, where the distance bends upwards.
   [[nodiscard]] Vec2 step(const Vec2& xi, const Vec2& slope) const {
     const auto [f11, f12, f22] = bend(xi);
@@ -61,7 +71,8 @@ class BilinearDistance {
     return {scale * (f22 * slope[0] - f12 * slope[1]), scale * (f11 * slope[1] - f12 * slope[0])};
   }
   [[nodiscard]] double squared_distance(const Vec2& xi) const {
-    return (arm_ - xi[0] * c1_ - xi[1] * c2_ - xi[0] * xi[1] * c3_).squaredNorm();
+    const Vec3 gap = arm_ - xi[0] * c1_ - xi[1] * c2_ - xi[0] * xi[1] * c3_;
+    return product(gap, gap);
   }
   /// Whether a place on the border is the nearest one of a convex facet: no way inwards is
   /// downhill.
@@ -77,6 +88,12 @@ class BilinearDistance {
   }
 
  private:
+  /// Not Eigen's, of which the linker may take one that was compiled in another way, with other
+  /// last digits.
+  [[nodiscard]] static double product(const Vec3& a, const Vec3& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  }
+
   Vec3 c1_, c2_, c3_, arm_;
   double c11_, c22_, c33_, c12_, c13_, c23_, b1_, b2_, b3_;
 };

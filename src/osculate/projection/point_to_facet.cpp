@@ -251,14 +251,35 @@ void compare_border(cell::CellType type, std::span<const Vec3> nodes, const Vec3
 
 /// The same as `closest_point` where the distance from a facet of four corners is convex, which
 /// leaves no doubt about the one minimum that there is. Feature none: it is not, or there is doubt.
-FacetFoot closest_on_convex(std::span<const Vec3> nodes, const Vec3& point) {
-  const BilinearDistance distance(nodes[0], nodes[1], nodes[2], nodes[3], point);
+FacetFoot closest_on_convex(std::span<const Vec3> nodes, const Vec3& point,
+                            const BilinearDistance& distance) {
   if (!distance.convex()) return {};
   FacetFoot best = foot_inside_convex(distance);
   if (best.feature == Feature::face) return best;
   best = {};
   compare_border(cell::CellType::quad4, nodes, point, best);
   return distance.nothing_inwards(best.xi) ? best : FacetFoot{};
+}
+
+/// Of all others: from the nearest sample, along the edges, and from there inwards.
+template <class Distance>
+FacetFoot closest_from_samples(cell::CellType type, std::span<const Vec3> nodes, const Vec3& point,
+                               const Distance& distance) {
+  constexpr double last_step = 1e-15;
+  const Start start = nearest_sample(type, nodes, point);
+  FacetFoot best = foot_inside(type, distance, start.xi, last_step);
+  // Nothing on the border can be nearer than this.
+  if (start.border > 0 && best.feature == Feature::face &&
+      best.squared_distance <= start.border * start.border)
+    return best;
+  if (best.feature != Feature::face) best = {};
+  compare_border(type, nodes, point, best);
+  look_inwards(type, distance, last_step, best);
+  return best;
+}
+
+BilinearDistance bilinear_distance(std::span<const Vec3> nodes, const Vec3& point) {
+  return {nodes[0], nodes[1], nodes[2], nodes[3], point};
 }
 
 }  // namespace
@@ -271,31 +292,30 @@ FacetFoot closest_point_on_edge(cell::CellType type, std::span<const Vec3> nodes
 }
 
 FacetFoot closest_point(cell::CellType type, std::span<const Vec3> nodes, const Vec3& point) {
-  FacetFoot best;
   if (type == cell::CellType::tri3) {
-    best = foot_inside_triangle(nodes, point);
+    FacetFoot best = foot_inside_triangle(nodes, point);
     if (best.feature != Feature::face) compare_border(type, nodes, point, best = {});
     return best;
   }
-  if (type == cell::CellType::quad4)
-    if (best = closest_on_convex(nodes, point); best.feature != Feature::none) return best;
-  constexpr double last_step = 1e-15;
+  if (type == cell::CellType::quad4) {
+    const BilinearDistance distance = bilinear_distance(nodes, point);
+    const FacetFoot best = closest_on_convex(nodes, point, distance);
+    if (best.feature != Feature::none) return best;
+    return closest_from_samples(type, nodes, point,
+                                [&](const Vec2& xi) { return distance.jet(xi); });
+  }
   const Surface surface(type, nodes);
-  const auto distance = [&](const Vec2& xi) { return surface.distance_jet2(xi, point); };
-  const Start start = nearest_sample(type, nodes, point);
-  best = foot_inside(type, distance, start.xi, last_step);
-  // Nothing on the border can be nearer than this.
-  if (start.border > 0 && best.feature == Feature::face &&
-      best.squared_distance <= start.border * start.border)
-    return best;
-  if (best.feature != Feature::face) best = {};
-  compare_border(type, nodes, point, best);
-  look_inwards(type, distance, last_step, best);
-  return best;
+  return closest_from_samples(type, nodes, point,
+                              [&](const Vec2& xi) { return surface.distance_jet2(xi, point); });
 }
 
 bool release(cell::CellType type, std::span<const Vec3> nodes, const Vec3& point, double extension,
              FacetFoot& foot) {
+  if (type == cell::CellType::quad4) {
+    const BilinearDistance distance = bilinear_distance(nodes, point);
+    return release_along(
+        type, [&](const Vec2& xi) { return distance.jet(xi); }, extension, foot);
+  }
   const Surface surface(type, nodes);
   return release_along(
       type, [&](const Vec2& xi) { return surface.distance_jet2(xi, point); }, extension, foot);
