@@ -58,6 +58,19 @@ class Alone(Tree):
         self.assertEqual(found["a.cpp"], "")
         self.assertIn("helper", found["b.cpp"])
 
+    def test_headers_that_live_by_a_header_that_was_changed_are_looked_at(self):
+        self.write("src/a/changed.hpp", "#pragma once\n")
+        self.write("src/a/reader.hpp", '#include "a/changed.hpp"\ninline Gone of() { return {}; }\n')
+        self.write("src/a/other.hpp", "#pragma once\n")
+        self.write("src/a/a.cpp", "")
+        source = self.root / "src"
+        files = alone.with_their_readers([source / "a/changed.hpp", source / "a/a.cpp"], source)
+        self.assertEqual([f.name for f in files], ["a.cpp", "changed.hpp", "reader.hpp"])
+        known = {source / "a/a.cpp": (["c++", "-std=c++20", f"-I{source}"], self.root)}
+        said = {f.name: alone.complaint(f, *alone.command_for(f, known)) for f in files}
+        self.assertEqual((said["a.cpp"], said["changed.hpp"]), ("", ""))
+        self.assertIn("Gone", said["reader.hpp"])
+
 
 class Layers(Tree):
     def problems(self):

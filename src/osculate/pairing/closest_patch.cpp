@@ -63,7 +63,7 @@ EdgeCurve edge_curve(const PatchQuery& q, int edge) {
   return out;
 }
 
-/// The same along an edge.
+/// As projection::polish, along an edge.
 void polish(const EdgeCurve& e, const Vec3& point, double& t, double& squared) {
   for (int it = 0; it < 3; ++it) {
     const std::array<Vec3, 3> r = e.at(t);

@@ -1,5 +1,4 @@
 #pragma once
-#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -9,11 +8,13 @@ namespace osculate::projection {
 
 /// Distance of a point from a facet with four corners, by scalar products that are found once.
 ///
-/// Formula    r = c_0 + c_1 xi + c_2 eta + c_3 xi eta ,  d = p - c_0 :
-///            F_1 = c_11 xi + c_12 eta + c_13 xi eta - b_1 + eta (c_13 xi + c_23 eta + c_33 xi eta
-///            - b_3) with c_ij = c_i . c_j and b_i = d . c_i , F_2 likewise F_11 = |c_1 + c_3
-///            eta|^2 ,  F_22 = |c_2 + c_3 xi|^2 , F_12 = c_12 - b_3 + 2 (c_13 xi + c_23 eta + c_33
-///            xi eta)
+/// Formula    r = c_0 + c_1 xi + c_2 eta + c_3 xi eta ,  d = p - c_0 ,  c_ij = c_i . c_j ,
+///            b_i = d . c_i ,  a = c_13 xi + c_23 eta + c_33 xi eta - b_3 ;
+///            F_1 = c_11 xi + c_12 eta + c_13 xi eta - b_1 + a eta ;
+///            F_2 = c_12 xi + c_22 eta + c_23 xi eta - b_2 + a xi ;
+///            F_11 = |c_1 + c_3 eta|^2 ;
+///            F_22 = |c_2 + c_3 xi|^2 ;
+///            F_12 = c_12 - b_3 + 2 (c_13 xi + c_23 eta + c_33 xi eta)
 /// Source     KSVD:15, KSVD:16 and KSCPP:5, KSCPP:6 as in `distance_jet2`, for this r
 /// Requires   corners in the order of `cell::area_node`
 /// Tested by  tests/unit/projection/test_bilinear_distance.cpp
@@ -23,7 +24,7 @@ class BilinearDistance {
       : c1_(0.25 * ((b - a) + (c - d))),
         c2_(0.25 * ((d - a) + (c - b))),
         c3_(0.25 * ((a - b) + (c - d))),
-        arm_(point - 0.25 * ((a + b) + (c + d))),
+        arm_(0.25 * (((point - a) + (point - b)) + ((point - c) + (point - d)))),
         c11_(product(c1_, c1_)),
         c22_(product(c2_, c2_)),
         c33_(product(c3_, c3_)),
@@ -74,22 +75,20 @@ class BilinearDistance {
     const Vec3 gap = arm_ - xi[0] * c1_ - xi[1] * c2_ - xi[0] * xi[1] * c3_;
     return product(gap, gap);
   }
-  /// Whether a place on the border is the nearest one of a convex facet: no way inwards is
-  /// downhill.
+  /// Whether the nearest place of all edges is the nearest one of a convex facet: the way inwards
+  /// is not downhill.
   [[nodiscard]] bool nothing_inwards(const Vec2& xi) const {
     constexpr double rounding = 1e-14;
     const Vec2 s = slope(xi);
     const double size = rounding * (c11_ + c22_ + std::abs(b1_) + std::abs(b2_) + std::abs(b3_));
-    for (Eigen::Index i = 0; i < 2; ++i) {
-      if (xi[i] < 1 && s[i] < -size) return false;
-      if (xi[i] > -1 && s[i] > size) return false;
-    }
+    for (Eigen::Index i = 0; i < 2; ++i)
+      if ((xi[i] >= 1 && s[i] > size) || (xi[i] <= -1 && s[i] < -size)) return false;
     return true;
   }
 
  private:
-  /// Not Eigen's, of which the linker may take one that was compiled in another way, with other
-  /// last digits.
+  /// Not Eigen's: where that is not inlined the linker takes one of any source, which may have been
+  /// compiled in another way, with other last digits.
   [[nodiscard]] static double product(const Vec3& a, const Vec3& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
   }

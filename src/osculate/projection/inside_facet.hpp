@@ -8,7 +8,8 @@
 // Newton's method for the nearest place of one facet, whatever its surface is: `distance(xi)` is
 // the DistanceJet2 of the point there.
 //
-// Tested by  tests/unit/projection/test_point_to_facet.cpp, tests/unit/pairing/test_gregory.cpp
+// Tested by  tests/unit/projection/test_point_to_facet.cpp,
+// tests/unit/pairing/test_smooth_surface.cpp
 
 namespace osculate::projection {
 
@@ -91,8 +92,8 @@ template <class Distance>
 }
 
 /// A step that was cut at the border may end there though the nearest place is inside. Where the
-/// way inwards from the nearest place of all edges is downhill, the iteration begins there anew: it
-/// begins nearer than the whole border is and never goes farther away, so that it ends inside.
+/// way inwards from the nearest place of all edges is downhill, the iteration begins anew there:
+/// its first step leads inwards, since the distance is level along the edge.
 template <class Distance>
 void look_inwards(cell::CellType type, const Distance& distance, double small, FacetFoot& best) {
   if (best.feature != Feature::edge) return;  // from a corner both edges lead uphill
@@ -101,14 +102,8 @@ void look_inwards(cell::CellType type, const Distance& distance, double small, F
   constexpr double rounding = 1e-13;
   const double size = j.metric.trace() + std::sqrt(j.squared_distance * j.metric.trace());
   if (!(j.slope.dot(inwards) < -rounding * size)) return;
-  for (double part = 0.5; part > 1e-8; part *= 0.5) {
-    const Vec2 start = best.xi + part * inwards;
-    if (!(distance(start).squared_distance < best.squared_distance)) continue;
-    if (const FacetFoot foot = foot_inside(type, distance, start, small);
-        foot.feature == Feature::face)
-      best = foot;
-    return;
-  }
+  const FacetFoot foot = foot_inside(type, distance, best.xi, small);
+  if (foot.feature == Feature::face && foot.squared_distance < best.squared_distance) best = foot;
 }
 
 /// As `release` of a facet.

@@ -111,7 +111,7 @@ Start nearest_sample(cell::CellType type, std::span<const Vec3> nodes, const Vec
           std::sqrt(border) - edge / samples.steps};
 }
 
-/// The same in closed form.
+/// The foot inside a plane triangle in closed form.
 FacetFoot foot_inside_triangle(std::span<const Vec3> nodes, const Vec3& point) {
   FacetFoot foot;
   const TriangleFoot nearest = closest_on_triangle(nodes[0], nodes[1], nodes[2], point);
@@ -123,12 +123,13 @@ FacetFoot foot_inside_triangle(std::span<const Vec3> nodes, const Vec3& point) {
   return foot;
 }
 
-/// Newton inside a facet of four corners whose distance is convex. Feature none if the way leads
-/// out of it, or takes too long.
+/// Newton inside a facet of four corners whose distance is convex, from its middle. Feature none if
+/// the way leads out of it, or takes too long.
 FacetFoot foot_inside_convex(const BilinearDistance& distance) {
   constexpr int most = 12;
   constexpr double pressed = 1e-12, small = 1e-12;
   FacetFoot foot;
+  foot.xi = middle_of_cell(cell::CellType::quad4);
   Vec2 slope = distance.slope(foot.xi);
   for (int it = 0; it < most; ++it) {
     const Vec2 step = distance.step(foot.xi, slope);
@@ -171,7 +172,7 @@ double least_distance(const Edge& e, const Vec3& point) {
   return (from_chord - t * e.half).norm() - e.bend.norm();
 }
 
-/// The same along an edge.
+/// As `polish` of a facet, along an edge.
 void polish(const Edge& e, const Vec3& point, double& t, double& squared) {
   const auto slope = [&](double s) { return -(point - e.at(s)).dot(e.half + 2 * s * e.bend); };
   double before = std::abs(slope(t));
@@ -188,19 +189,9 @@ void polish(const Edge& e, const Vec3& point, double& t, double& squared) {
   }
 }
 
-/// Safeguarded Newton for the nearest t in -1..1.
-double nearest_on_edge(const Edge& e, const Vec3& point, double& squared) {
-  const auto distance = [&](double t) { return (point - e.at(t)).squaredNorm(); };
-  if (e.bend.isZero(0.0)) {
-    const double size = std::max(e.half.squaredNorm(), 1e-300);
-    const double t = std::clamp((point - e.middle).dot(e.half) / size, -1.0, 1.0);
-    squared = distance(t);
-    return t;
-  }
-  double t = 0;
-  squared = std::numeric_limits<double>::infinity();
-  for (int i = -3; i <= 3; ++i)
-    if (const double d = distance(i / 3.0); d < squared) squared = d, t = i / 3.0;
+/// Safeguarded Newton for the minimum below t; never farther away than that.
+void descend(const Edge& e, const Vec3& point, double& t, double& squared) {
+  const auto distance = [&](double s) { return (point - e.at(s)).squaredNorm(); };
   for (int it = 0; it < 40; ++it) {
     const Vec3 gap = point - e.at(t), first = e.half + 2 * t * e.bend;
     const double a = first.squaredNorm();
@@ -217,7 +208,33 @@ double nearest_on_edge(const Edge& e, const Vec3& point, double& squared) {
     if (std::abs(step) <= 1e-15) break;
   }
   polish(e, point, t, squared);
-  return t;
+}
+
+/// The nearest t in -1..1: of a straight edge at once, of a bent one by Newton's method from each
+/// sample that none beside it is nearer than (the distance has two minima at most).
+double nearest_on_edge(const Edge& e, const Vec3& point, double& squared) {
+  const auto distance = [&](double t) { return (point - e.at(t)).squaredNorm(); };
+  if (e.bend.isZero(0.0)) {
+    const double size = std::max(e.half.squaredNorm(), 1e-300);
+    const double t = std::clamp((point - e.middle).dot(e.half) / size, -1.0, 1.0);
+    squared = distance(t);
+    return t;
+  }
+  constexpr std::size_t samples = 7;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const auto place = [](std::size_t i) { return (static_cast<double>(i) - 3) / 3; };
+  std::array<double, samples + 2> d;  // with one beyond each end
+  d.front() = d.back() = infinity;
+  for (std::size_t i = 0; i < samples; ++i) d[i + 1] = distance(place(i));
+  double nearest = 0;
+  squared = infinity;
+  for (std::size_t i = 0; i < samples; ++i) {
+    if (!(d[i + 1] <= d[i] && d[i + 1] < d[i + 2])) continue;
+    double t = place(i), there = d[i + 1];
+    descend(e, point, t, there);
+    if (there < squared) nearest = t, squared = there;
+  }
+  return nearest;
 }
 
 FacetFoot foot_at(cell::CellType type, int edge, double t, double squared) {

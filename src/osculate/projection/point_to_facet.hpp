@@ -18,8 +18,11 @@ struct FacetFoot {
 };
 
 /// Closest point of a facet: the best of a safeguarded Newton iteration inside the facet, started
-/// from the nearest point of a grid, and of its edges with their corners.
+/// from the nearest point of a grid, and of its edges with their corners; where the way inwards
+/// from there is downhill, of an iteration that begins there. Of triangles in closed form, of quad4
+/// by Newton's method alone where the distance is convex (BilinearDistance).
 ///
+/// Decision   docs/decisions/119-nearest-places-of-facets.md
 /// Formula    F = |p - r|^2 / 2,  F_i = -(p - r) . r_,i ,  F_ij = a_ij - (p - r) . r_,ij
 /// Source     KSVD:14 to KSVD:17 with r_,ij (p - r) in full: (17) holds at the solution only
 /// Requires   nodes of a cell type that `cell::facet_shape` knows, finite coordinates

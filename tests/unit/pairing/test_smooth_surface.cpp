@@ -13,6 +13,7 @@
 #include "osculate/pairing/closest_patch.hpp"
 #include "osculate/pairing/gregory.hpp"
 #include "osculate/pairing/smoothing.hpp"
+#include "osculate/projection/inside_facet.hpp"
 #include "pair_sample.hpp"
 
 namespace osculate::testing {
@@ -326,8 +327,7 @@ TEST(SmoothSurface, NoWayInwardsFromABorderIsDownhill) {
     for (int i = 0; i < 4000; ++i) {
       const auto f = static_cast<std::size_t>(i) % s.surface.facets.size();
       const pairing::SurfaceFacet& facet = s.surface.facets[f];
-      const bool triangle = cell::is_triangle(facet.type);
-      const Vec2 middle = triangle ? Vec2(1.0 / 3, 1.0 / 3) : Vec2(0, 0);
+      const Vec2 middle = projection::middle_of_cell(facet.type);
       const pairing::GregoryPoints points = pairing::patch_points(facet, s.x);
       const Vec3 p = jet_of(s, f, middle).r + 0.6 * Vec3(u(generator), u(generator), u(generator));
       const projection::FacetFoot foot = pairing::closest_on_patch({facet.type, points, p}, middle);

@@ -9,6 +9,7 @@
 
 #include "effort.hpp"
 #include "osculate/cell/shape.hpp"
+#include "osculate/projection/inside_facet.hpp"
 
 namespace osculate::projection {
 namespace {
@@ -153,7 +154,7 @@ TEST(PointToFacet, NoWayInwardsFromAnEdgeIsDownhill) {
     int edges = 0;
     for (int f = 0; f < (testing::sanitized ? 10 : 100); ++f) {
       const std::vector<Vec3> nodes = distorted(type, 0.3, generator);
-      const Vec2 middle = cell::is_triangle(type) ? Vec2(1.0 / 3, 1.0 / 3) : Vec2(0, 0);
+      const Vec2 middle = middle_of_cell(type);
       for (int i = 0; i < 200; ++i) {
         const Vec3 p(u(generator), u(generator), i % 2 == 0 ? 0.5 * u(generator) : 0.1);
         const FacetFoot foot = closest_point(type, nodes, p);
@@ -173,17 +174,35 @@ TEST(PointToFacet, NoWayInwardsFromAnEdgeIsDownhill) {
   }
 }
 
-TEST(PointToFacet, FacetsOfFourCornersThatAreDistortedHaveNoNearerSample) {
+/// Distorted facets ten times as long as they are wide.
+TEST(PointToFacet, LongFacetsOfFourCornersHaveNoNearerSample) {
   std::mt19937 generator(7);
   std::uniform_real_distribution<double> u(-1.6, 1.6);
-  for (int f = 0; f < (testing::sanitized ? 5 : 60); ++f) {
-    const std::vector<Vec3> nodes = distorted(CellType::quad4, 0.3, generator);
+  for (int f = 0; f < 60; ++f) {
+    std::vector<Vec3> nodes = distorted(CellType::quad4, 0.3, generator);
+    for (Vec3& x : nodes) x = {x.x(), 0.1 * x.y(), 0.1 * x.z()};
     for (int i = 0; i < 20; ++i) {
-      const Vec3 p(u(generator), u(generator), i % 2 == 0 ? u(generator) : 0.05);
+      const Vec3 p(u(generator), 0.1 * u(generator), 0.1 * u(generator));
       const FacetFoot foot = closest_point(CellType::quad4, nodes, p);
       EXPECT_LE(std::sqrt(foot.squared_distance), brute_force(CellType::quad4, nodes, p) + 1e-12);
     }
   }
+}
+
+/// A bent edge may have two nearest places, of which the farther one has the nearer sample.
+TEST(PointToFacet, BentEdgesAreSearchedFromAllSides) {
+  const std::vector<Vec3> nodes{
+      {-0.26489271838388734, -0.0046006556472643163, 0.0055561889747214399},
+      {1.0070965153776532, 0.00105143597184028, 0.29943857551049852},
+      {-0.13587253605212343, 0.015763767176836103, -0.0076633426220941896},
+      {0.49598979625952244, 0.010055752214409601, 0.16151977611957202},
+      {0.69068123857872987, 0.0030464193359531419, 0.16152185000748837},
+      {0.18685553602644067, 0.012655519754258755, 0.0058271106498217979}};
+  const Vec3 p(-0.20191477663661228, 0.028003627809725297, 0.00086895902629393425);
+  const double edge =
+      std::sqrt(closest_point_on_edge(CellType::tri6, nodes, 2, p).squared_distance);
+  EXPECT_NEAR(edge, 0.031177, 1e-6);
+  EXPECT_LE(std::sqrt(closest_point(CellType::tri6, nodes, p).squared_distance), edge);
 }
 
 TEST(PointToFacet, CentreOfCurvatureAndFarPointsStayFinite) {
