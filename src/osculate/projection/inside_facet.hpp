@@ -102,8 +102,12 @@ void look_inwards(cell::CellType type, const Distance& distance, double small, F
   constexpr double rounding = 1e-13;
   const double size = j.metric.trace() + std::sqrt(j.squared_distance * j.metric.trace());
   if (!(j.slope.dot(inwards) < -rounding * size)) return;
-  const FacetFoot foot = foot_inside(type, distance, best.xi, small);
-  if (foot.feature == Feature::face && foot.squared_distance < best.squared_distance) best = foot;
+  for (const double part : {0.0, 0.5, 0.1, 0.01}) {
+    const FacetFoot foot = foot_inside(type, distance, best.xi + part * inwards, small);
+    if (foot.feature != Feature::face || !(foot.squared_distance < best.squared_distance)) continue;
+    best = foot;
+    return;
+  }
 }
 
 /// As `release` of a facet.
