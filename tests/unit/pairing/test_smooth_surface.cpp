@@ -335,7 +335,7 @@ TEST(SmoothSurface, NoWayInwardsFromABorderIsDownhill) {
       ++borders;
       const geometry::SurfaceJet jet = jet_of(s, f, foot.xi);
       const Vec2 to = middle - foot.xi;
-      EXPECT_LT((p - jet.r).dot(to[0] * jet.r1[0] + to[1] * jet.r1[1]), 1e-7);
+      EXPECT_LT((p - jet.r).dot(to[0] * jet.r1[0] + to[1] * jet.r1[1]), 1e-11);
     }
   EXPECT_GT(borders, 1000);
 }
