@@ -3,7 +3,10 @@
 #include <dmumps_c.h>
 #include <mpi.h>
 
+#include <array>
+#include <cstdlib>
 #include <numeric>
+#include <string_view>
 #include <vector>
 
 #include "osculate/la/shared_solvers.hpp"
@@ -66,14 +69,38 @@ class World final : public core::Ranks {
   int count_ = 1, rank_ = 0;
 };
 
+/// As mpirun of Open MPI says it.
+bool on_one_machine() {
+  const char* const all = std::getenv("OMPI_COMM_WORLD_SIZE");
+  const char* const here = std::getenv("OMPI_COMM_WORLD_LOCAL_SIZE");
+  return all != nullptr && here != nullptr && std::string_view(all) == here;
+}
+
+/// What is sent within one machine goes through its memory. Open MPI would look for networks first,
+/// for 0.2 s of each run. What somebody has chosen for it stays.
+void begin_mpi() {
+  struct Setting {
+    const char *name, *value;
+  };
+  constexpr std::array settings{Setting{"OMPI_MCA_pml", "ob1"},
+                                Setting{"OMPI_MCA_btl", "self,vader"}};
+  bool by_memory = on_one_machine();
+  for (const Setting& s : settings) by_memory = by_memory && std::getenv(s.name) == nullptr;
+  if (by_memory)
+    for (const Setting& s : settings) (void)setenv(s.name, s.value, 0);
+  int provided = 0;
+  MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
+  if (by_memory)  // what this program starts is not told of it
+    for (const Setting& s : settings) (void)unsetenv(s.name);
+}
+
 void call_mumps(void* structure) { dmumps_c(static_cast<DMUMPS_STRUC_C*>(structure)); }
 
 }  // namespace
 }  // namespace osculate::mpi
 
 extern "C" void osculate_begin_ranks(osculate::la::RanksLibrary& library) {
-  int provided = 0;
-  MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
+  osculate::mpi::begin_mpi();
   static const osculate::mpi::World world;
   library.ranks = &world;
   library.solvers.mumps = {osculate::mpi::call_mumps,
