@@ -89,12 +89,15 @@ int run(RunFlags& flags) {
 void add_run(CLI::App& app, int& exit_code) {
   CLI::App* const command = app.add_subcommand("run", "Run the analysis of a model file");
   auto flags = std::make_shared<RunFlags>();
+  flags->options.threads = 0;
   command->add_option("model", flags->options.model, "Model file (YAML)")->required();
   command->add_option("-o,--output", flags->options.folder,
                       "Result folder (default: MODEL's stem + .results)");
   command
       ->add_option("--threads", flags->options.threads,
-                   "Threads for bodies, contact and multigrid; results do not depend on them")
+                   "Threads for bodies, contact and multigrid; results do not depend on them "
+                   "(default: OMP_NUM_THREADS, else the processors there are, up to 4; small "
+                   "models 1)")
       ->check(CLI::Range(1, 1024));
   command->add_option("--until", flags->options.until, "Last step to run, inclusive");
   command->add_flag("--json", flags->json, "Print the summary as JSON on stdout");

@@ -10,6 +10,7 @@
 
 #include "osculate/api/agree.hpp"
 #include "osculate/api/recorder.hpp"
+#include "osculate/api/threads.hpp"
 #include "osculate/core/error.hpp"
 #include "osculate/core/memory.hpp"
 #include "osculate/core/text.hpp"
@@ -146,11 +147,18 @@ model::BasicAnalysisObserver<Dim> answering_alike(const core::Ranks* ranks,
   return alike;
 }
 
+template <int Dim>
+void say_threads(Recorder<Dim>& recorder) {
+  if (const int threads = recorder.built.options.threads; threads > 1)
+    recorder.say(fmt::format("{:<13} {}", "Threads", threads));
+}
+
 /// What a run says and writes at its beginning.
 template <int Dim>
 void introduce(Recorder<Dim>& recorder, const result::RunIdentity& id) {
   for (const result::ModelFact& fact : result::model_facts(recorder.built))
     recorder.say(fmt::format("{:<13} {:<16} {}", fact.heading, fact.name, fact.text));
+  say_threads(recorder);
   for (const std::string& warning : recorder.built.warnings) recorder.say("warning: " + warning);
   if (recorder.description.output.checkpoint != 0)
     recorder.checkpoints.emplace(recorder.folder, id);
@@ -162,6 +170,7 @@ void introduce_restart(Recorder<Dim>& recorder, const result::Checkpoint<Dim>& f
   if (!from.warning.empty()) recorder.say("warning: " + from.warning);
   if (!from.note.empty()) recorder.say(from.note);
   recorder.resumed = recorder.done(from.point.progress);
+  say_threads(recorder);
   recorder.say(fmt::format("restart after increment {} of step '{}', time {:.5g}",
                            from.point.progress.increment, recorder.step_name(from.point.progress),
                            from.point.progress.time));
@@ -231,7 +240,9 @@ template <int Dim>
 RunOutcome run_built(const RunOptions& options, const deck::Description& description,
                      deck::BasicBuilt<Dim>& built, const nlohmann::json& owner,
                      std::chrono::steady_clock::time_point start) {
-  built.options.threads = options.threads;
+  built.options.threads = options.threads > 0      ? options.threads
+                          : options.together.ranks ? 1
+                                                   : threads_that_pay(built.model);
   built.options.until = options.until;
   const core::Ranks* const ranks = options.together.ranks;
   model::share(options.together, built.options);

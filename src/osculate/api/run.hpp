@@ -31,9 +31,9 @@ struct RunOptions {
   /// Files of CalculiX (result::AnswerFiles), without their endings; empty: in the folder, where
   /// the model asks for some.
   std::string answers{};
-  std::string until;  ///< last step to run, inclusive; empty: all
-  int threads = 1;
-  model::Together together{};           ///< processes that run it, too; the first one writes
+  std::string until;           ///< last step to run, inclusive; empty: all
+  int threads = 1;             ///< 0: as many as pay (threads.hpp), of a process that is alone
+  model::Together together{};  ///< processes that run it, too; the first one writes
   std::vector<deck::Setting> settings;  ///< parameters of the model file that are set otherwise
   bool restart = false;                 ///< go on from the folder's last checkpoint
   std::function<void(std::string_view)> say;       ///< lines for a person (also in log.txt)

@@ -2,10 +2,14 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <fstream>
 #include <functional>
+#include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace osculate::core {
@@ -17,6 +21,23 @@ double mark_of_machine() {
   if (gethostname(host.data(), host.size() - 1) == 0) name += host.data();
   constexpr unsigned exact = 12;  // bits of the hash that a number has not, and a sign
   return static_cast<double>(std::hash<std::string>{}(name) >> exact);
+}
+
+int processors_of(const std::string& cpu_max) {
+  std::istringstream in(cpu_max);
+  double time = 0, period = 0;  // `max` is no number
+  constexpr double most = 1e6;
+  return in >> time >> period && time > 0 && period > 0
+             ? static_cast<int>(std::ceil(std::min(time / period, most)))
+             : 0;
+}
+
+int processors_here() {
+  const int may = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  std::string line;
+  std::getline(std::ifstream("/sys/fs/cgroup/cpu.max"), line);
+  const int of_group = processors_of(line);
+  return of_group > 0 ? std::min(may, of_group) : may;
 }
 
 double sum_on_machine(const Ranks& ranks, double value, double mark) {

@@ -15,6 +15,17 @@ TEST(Machines, WhatProcessesOfOneMachineNeedIsSummedUp) {
   });
 }
 
+TEST(Machines, AGroupHasAsManyProcessorsAsItsTimeAmountsTo) {
+  EXPECT_EQ(processors_of("max 100000"), 0);
+  EXPECT_EQ(processors_of("100000 100000"), 1);
+  EXPECT_EQ(processors_of("50000 100000"), 1);
+  EXPECT_EQ(processors_of("250000 100000"), 3);
+  EXPECT_EQ(processors_of("-1 100000"), 0);
+  EXPECT_EQ(processors_of("1 0"), 0);
+  EXPECT_EQ(processors_of(""), 0);
+  EXPECT_GE(processors_here(), 1);
+}
+
 TEST(Machines, AMarkIsANumberThatAllProcessesOfAMachineHave) {
   const double mark = mark_of_machine();
   EXPECT_GE(mark, 0);
