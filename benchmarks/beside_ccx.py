@@ -23,6 +23,7 @@ import statistics
 import subprocess
 import sys
 import tempfile
+import time
 
 sys.dont_write_bytecode = True
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -32,21 +33,34 @@ import problems  # noqa: E402
 FORCE_LIMIT = 0.03  # of the largest force of the history
 RESIDUAL = 1e-9     # of CalculiX, relative; what Osculate ends with by default is of that order
 PHASES = ("input", "bulk", "contact", "assembly", "solver", "output")
-Run = collections.namedtuple("Run", "cpu memory unknowns iterations factorisations forces seconds")
+Run = collections.namedtuple("Run", "cpu memory own unknowns iterations factorisations forces seconds")
+
+
+def own_pages(pid):
+    """MB that a process has of its own now: without the pages of files, which all processes share."""
+    try:
+        found = re.search(r"RssAnon:\s+(\d+)", pathlib.Path(f"/proc/{pid}/status").read_text())
+    except OSError:  # it has ended
+        found = None
+    return int(found[1]) / 1024 if found else 0
 
 
 def timed(command, folder):
-    """Processor seconds, MB at most, and the output of one run."""
+    """Processor seconds, MB at most, those of its own (every 2 ms), and the output of one run."""
     with (folder / "out.txt").open("w+") as out:
         process = subprocess.Popen(command, cwd=folder, stdout=out, stderr=subprocess.STDOUT,
                                    env={**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"})
-        _, status, usage = os.wait4(process.pid, 0)
+        own = ended = 0
+        while not ended:
+            own = max(own, own_pages(process.pid))
+            time.sleep(0.002)
+            ended, status, usage = os.wait4(process.pid, os.WNOHANG)
         process.returncode = os.waitstatus_to_exitcode(status)
         out.seek(0)
         text = out.read()
     if process.returncode != 0:
         raise RuntimeError(f"{' '.join(map(str, command))} ended with {process.returncode}:\n{text[-2000:]}")
-    return usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024, text
+    return usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024, own, text
 
 
 def forces_of(path):
@@ -58,14 +72,14 @@ def forces_of(path):
 
 def run_osculate(program, folder):
     shutil.rmtree(folder / "results", ignore_errors=True)
-    cpu, memory, _ = timed([str(program), "run", "deck.inp", "-o", "results", "--threads", "1", "--quiet"], folder)
+    cpu, memory, own, _ = timed([str(program), "run", "deck.inp", "-o", "results", "--threads", "1", "--quiet"], folder)
     summary = json.loads((folder / "results/summary.json").read_text())
     increments = [i for step in summary["steps"] for i in step["increments"]]
     if any(i["cutbacks"] for i in increments):
         raise RuntimeError("osculate cut an increment")
     count = {key: sum(i[key] for i in increments)
              for key in ("iterations", "factorisations", "factorisations_of_contact")}
-    return Run(cpu, memory, summary["unknowns"], count["iterations"],
+    return Run(cpu, memory, own, summary["unknowns"], count["iterations"],
                f"{count['factorisations']} + {count['factorisations_of_contact']}",
                forces_of(folder / "results/deck.dat"), summary["seconds"])
 
@@ -73,7 +87,7 @@ def run_osculate(program, folder):
 def run_ccx(program, folder):
     for suffix in (".dat", ".sta"):
         (folder / f"deck{suffix}").unlink(missing_ok=True)
-    cpu, memory, text = timed([str(program), "deck"], folder)
+    cpu, memory, own, text = timed([str(program), "deck"], folder)
     if "*ERROR" in text:
         raise RuntimeError("ccx: " + text[text.index("*ERROR"):][:500])
     attempts = [line.split() for line in (folder / "deck.sta").read_text().splitlines()[2:]]
@@ -81,7 +95,7 @@ def run_ccx(program, folder):
         raise RuntimeError("ccx repeated an increment")
     iterations = sum(int(a[3]) for a in attempts)
     unknowns = int(re.findall(r"number of equations\s+(\d+)", text)[0])
-    return Run(cpu, memory, unknowns, iterations, iterations, forces_of(folder / "deck.dat"), {})
+    return Run(cpu, memory, own, unknowns, iterations, iterations, forces_of(folder / "deck.dat"), {})
 
 
 def force_difference(ours, theirs):
@@ -120,7 +134,8 @@ def row_of(name, fineness, pairs):
             "iterations": o.iterations, "factorisations": o.factorisations, "iterations_ccx": c.iterations,
             "memory": max(r.memory for r in ours), "memory_ccx": max(r.memory for r in theirs),
             "difference": force_difference(o.forces, c.forces),
-            **{phase: o.seconds[phase] / o.seconds["total"] for phase in PHASES}}
+            **{phase: o.seconds[phase] / o.seconds["total"] for phase in PHASES},
+            "own": max(r.own for r in ours), "own_ccx": max(r.own for r in theirs)}
 
 
 def table(heads, rows):
@@ -132,12 +147,13 @@ def line_of(r):
     return [r["problem"], f"{r['unknowns']}", f"{r['seconds']:.2f} / {r['seconds_ccx']:.2f}",
             f"{r['ratio']:.1f}" + (f" ({r['from']:.1f}, {r['to']:.1f})" if "from" in r else ""),
             f"{r['iterations']}" + (f" ({r['factorisations']})" if "factorisations" in r else "") + f" / {r['iterations_ccx']}",
-            f"{r['memory']:.0f} / {r['memory_ccx']:.0f}", f"{r['difference']:.1e}",
+            f"{r['memory']:.0f} / {r['memory_ccx']:.0f}" + (f" ({r['own']:.0f} / {r['own_ccx']:.0f})" if "own" in r else ""),
+            f"{r['difference']:.1e}",
             " ".join(f"{r[phase]:.0%}" for phase in PHASES)]
 
 
 HEADS = ["problem", "unknowns", "seconds of the processor O / C", "C / O, pairs from, to",
-         "iterations (factorisations + of contact alone) O / C", "MB O / C", "forces differ by", "shares of O: " + ", ".join(PHASES)]
+         "iterations (factorisations + of contact alone) O / C", "MB O / C (of its own)", "forces differ by", "shares of O: " + ", ".join(PHASES)]
 
 
 def keep(rows, path):

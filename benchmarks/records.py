@@ -17,13 +17,13 @@ sys.path.insert(0, str(ROOT / "benchmarks"))
 import beside_ccx  # noqa: E402
 
 PAGES = ("benchmarks/README.md", "docs/performance.md")
-NUMBERS = {"seconds", "seconds_ccx", "ratio", "from", "to", "memory", "memory_ccx", "difference", *beside_ccx.PHASES}
+NUMBERS = {"seconds", "seconds_ccx", "ratio", "from", "to", "memory", "memory_ccx", "own", "own_ccx", "difference", *beside_ccx.PHASES}
 
 
 def history(path=ROOT / "benchmarks/history.csv"):
     """Rows as beside_ccx.row_of has them, and their day; what was not noted is missing."""
     with path.open(newline="") as file:
-        return [{k: float(v) if k in NUMBERS else v for k, v in row.items() if v != ""} for row in csv.DictReader(file)]
+        return [{k: float(v) if k in NUMBERS else v for k, v in row.items() if v != ""} for row in csv.DictReader(file, restval="")]
 
 
 def table(rows, which):

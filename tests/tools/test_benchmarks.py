@@ -85,7 +85,7 @@ class Problems(unittest.TestCase):
 
 class Figures(unittest.TestCase):
     def run_of(self, cpu, forces):
-        return beside.Run(cpu, 10.0, 100, 7, 3, forces, {**dict.fromkeys(beside.PHASES, 0.1), "total": 1.0})
+        return beside.Run(cpu, 10.0, 4.0, 100, 7, 3, forces, {**dict.fromkeys(beside.PHASES, 0.1), "total": 1.0})
 
     def test_forces_differ_by_their_share_of_the_largest(self):
         self.assertAlmostEqual(beside.force_difference([(1, 0, 2)], [(1, 0.02, 2)]), 0.01)
@@ -107,6 +107,18 @@ class Figures(unittest.TestCase):
             lines = path.read_text().splitlines()
         self.assertEqual(len(lines), 3)
         self.assertTrue(re.match(r"\d{4}-\d\d-\d\d,[^,]+,blocks:4,100,", lines[1]))
+
+    def test_columns_are_those_of_the_record(self):
+        row = beside.row_of("blocks", 4, [(self.run_of(1, [(1, 0, 0)]), self.run_of(2, [(1, 0, 0)]))])
+        with open(ROOT / "benchmarks/history.csv") as file:
+            self.assertEqual(file.readline().strip().split(","), ["day", "commit", *row])
+
+    def test_pages_of_its_own_are_fewer_than_all(self):
+        with tempfile.TemporaryDirectory() as folder:
+            _, memory, own, text = beside.timed([sys.executable, "-c", "x = bytearray(50_000_000); print(len(x))"], pathlib.Path(folder))
+        self.assertEqual(text, "50000000\n")
+        self.assertGreater(own, 45)
+        self.assertGreater(memory, own)
 
     def test_problems_are_chosen_by_name(self):
         self.assertEqual(beside.chosen(["blocks:7,9"], False), [("blocks", 7), ("blocks", 9)])
