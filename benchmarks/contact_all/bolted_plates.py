@@ -160,7 +160,7 @@ output: {{fields: none, report: false, checkpoint: none, history: [{{name: force
 
 def run(program, folder, name):
     out = folder / f"{name}.results"
-    done = subprocess.run([program, "run", folder / f"{name}.yaml", "-o", out], capture_output=True, text=True, check=False)
+    done = subprocess.run([program, "run", folder / f"{name}.yaml", "-o", out, "--threads", "1"], capture_output=True, text=True, check=False)
     if done.returncode:
         raise RuntimeError(f"{name}: {done.stdout}{done.stderr}")
     summary = json.loads((out / "summary.json").read_text())

@@ -79,6 +79,12 @@ class Memory(unittest.TestCase):
         self.assertEqual(code, 3, text)
         self.assertIn("not enough memory", text)
 
+    def test_it_ends_where_memory_is_nearly_enough(self):
+        for limit in (800, 900):
+            code, text, _ = self.run_program(24, "run", "box.yaml", "-o", "out", limit=limit * MEGABYTE)
+            self.assertIn(code, (0, 3), text)
+            self.assertIn("done" if code == 0 else "not enough memory", text)
+
 
 if __name__ == "__main__":
     unittest.main(argv=[sys.argv[0]] + sys.argv[2:])

@@ -105,9 +105,22 @@ static int inside;
         self.compile("counts.so", self.folder / "counts.c")
         text = (self.folder / "bar.yaml").read_text().replace("metal.so", "counts.so")
         (self.folder / "counts.yaml").write_text(text.replace("elements: [1, 1, 2]", "elements: [4, 4, 8]"))
-        done = self.run_program("run", "counts.yaml", "--threads", "2", "--json")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual([len(step["increments"]) for step in json.loads(done.stdout)["steps"]], [4, 8])
+        # The same routine for many materials.
+        bars = range(16)
+        user = "{user: {library: counts.so, name: steel, constants: [200, 0.3, 1, 20], state: 7}}"
+        box = "box: {{x: [{}, {}], y: [0, 1], z: [0, 2], elements: [2, 2, 2], type: hex8}}"
+        (self.folder / "many.yaml").write_text("\n".join([
+            "osculate: 1", "mesh: {generate: {" + ", ".join(f"b{i}: {{{box.format(2 * i, 2 * i + 1)}}}" for i in bars) + "}}",
+            "materials: {" + ", ".join(f"m{i}: {user}" for i in bars) + "}",
+            "sections: [" + ", ".join(f"{{on: b{i}, material: m{i}, element: solid}}" for i in bars) + "]",
+            "sets: {" + ", ".join(f"{side}: {{union: [{', '.join(f'b{i}.{side}' for i in bars)}]}}"
+                                  for side in ("bottom", "left", "front", "top")) + "}",
+            text[text.index("steps:"):text.index("output:")].replace("on: b.", "on: ")]))
+        for model in ("counts", "many"):
+            with self.subTest(model=model):
+                done = self.run_program("run", model + ".yaml", "--threads", "2", "--json")
+                self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+                self.assertEqual([len(step["increments"]) for step in json.loads(done.stdout)["steps"]], [4, 8])
 
     def test_a_routine_that_has_no_answer_ends_the_run_with_its_reason(self):
         source = (EXAMPLES / "metal.c").read_text()

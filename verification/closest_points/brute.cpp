@@ -20,39 +20,43 @@ std::vector<double> break_points(const std::vector<double>& knots, double lo, do
 }  // namespace
 
 template <int Dim>
-BruteForce<Dim>::BruteForce(const projection::Target<Dim>& target, int grid) : grid_(grid) {
-  using cell::CellType;
-  if (const auto* mesh = std::get_if<projection::FacetMesh<Dim>>(&target)) {
-    for (std::size_t f = 0; f < mesh->facets.size(); ++f) {
-      const projection::MeshFacet& facet = mesh->facets[f];
-      std::vector<Vec<Dim>> nodes;
-      for (int k = 0; k < cell::info(facet.type).nodes; ++k)
-        nodes.push_back(
-            mesh->nodes[static_cast<std::size_t>(facet.nodes[static_cast<std::size_t>(k)])]);
-      Chart chart;
-      chart.facet = static_cast<int>(f);
-      if constexpr (Dim == 2) {
-        chart.shape = geometry::lagrange_curve(nodes);
-        chart.corner = {Vec2(-1, 0), Vec2(1, 0), Vec2(-1, 0), Vec2(1, 0)};
-        chart.border = {true, true, false, false};
+void BruteForce<Dim>::add_facets(const projection::FacetMesh<Dim>& mesh) {
+  for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
+    const projection::MeshFacet& facet = mesh.facets[f];
+    std::vector<Vec<Dim>> nodes;
+    for (int k = 0; k < cell::info(facet.type).nodes; ++k)
+      nodes.push_back(
+          mesh.nodes[static_cast<std::size_t>(facet.nodes[static_cast<std::size_t>(k)])]);
+    Chart chart;
+    chart.facet = static_cast<int>(f);
+    if constexpr (Dim == 2) {
+      chart.shape = geometry::lagrange_curve(nodes);
+      chart.corner = {Vec2(-1, 0), Vec2(1, 0), Vec2(-1, 0), Vec2(1, 0)};
+      chart.border = {true, true, false, false};
+      add(chart);
+    } else {
+      chart.shape = geometry::lagrange_surface(facet.type, nodes);
+      chart.corner = {Vec2(-1, -1), Vec2(1, -1), Vec2(-1, 1), Vec2(1, 1)};
+      chart.border = {true, true, true, true};
+      if (!cell::is_triangle(facet.type)) {
         add(chart);
-      } else {
-        chart.shape = geometry::lagrange_surface(facet.type, nodes);
-        chart.corner = {Vec2(-1, -1), Vec2(1, -1), Vec2(-1, 1), Vec2(1, 1)};
-        chart.border = {true, true, true, true};
-        if (!cell::is_triangle(facet.type)) {
-          add(chart);
-          continue;
-        }
-        const std::array<Vec2, 3> c{Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)};
-        for (std::size_t k = 0; k < 3; ++k) {
-          chart.corner = {c[k], 0.5 * (c[k] + c[(k + 1) % 3]), 0.5 * (c[k] + c[(k + 2) % 3]),
-                          Vec2(1.0 / 3, 1.0 / 3)};
-          chart.border = {true, false, true, false};
-          add(chart);
-        }
+        continue;
+      }
+      const std::array<Vec2, 3> c{Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)};
+      for (std::size_t k = 0; k < 3; ++k) {
+        chart.corner = {c[k], 0.5 * (c[k] + c[(k + 1) % 3]), 0.5 * (c[k] + c[(k + 2) % 3]),
+                        Vec2(1.0 / 3, 1.0 / 3)};
+        chart.border = {true, false, true, false};
+        add(chart);
       }
     }
+  }
+}
+
+template <int Dim>
+BruteForce<Dim>::BruteForce(const projection::Target<Dim>& target, int grid) : grid_(grid) {
+  if (const auto* mesh = std::get_if<projection::FacetMesh<Dim>>(&target)) {
+    add_facets(*mesh);
     return;
   }
   const auto& shape = std::get<projection::Shape<Dim>>(target);

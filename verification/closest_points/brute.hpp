@@ -49,6 +49,7 @@ class BruteForce {
   struct Descent;
   [[nodiscard]] Jet jet(const Chart& chart, const Vec2& st) const;
   void add(Chart chart);
+  void add_facets(const projection::FacetMesh<Dim>& mesh);
   [[nodiscard]] Minimum refine(std::size_t number, const Vec2& st, const Vec<Dim>& point) const;
 
   int grid_;

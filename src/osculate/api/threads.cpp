@@ -5,6 +5,7 @@
 
 #include "osculate/contact/law/user_laws.hpp"
 #include "osculate/core/machine.hpp"
+#include "osculate/material/user_material.hpp"
 
 namespace osculate::api {
 namespace {
@@ -13,6 +14,26 @@ template <class Pair>
 bool has_own_law(const Pair& pair) {
   return pair.normal.template as<contact::UserNormal>() ||
          (pair.friction && pair.friction->template as<contact::UserFriction>());
+}
+
+template <class Section>
+bool has_own_material(const Section& section) {
+  return material::key_of(section.law) == material::UserMaterial::key;
+}
+
+/// Functions of one's own are called for contact points or cells.
+template <int Dim>
+bool calls_others(const model::BasicModel<Dim>& model) {
+  for (const auto& pair : model.pairs)
+    if (has_own_law(pair.definition)) return true;
+  for (const auto& change : model.pair_changes)
+    if (has_own_law(change)) return true;
+  for (const auto& section : model.sections)
+    if (has_own_material(section.section)) return true;
+  for (const auto& change : model.body_changes)
+    for (const auto& material : change.materials)
+      if (has_own_material(material.now)) return true;
+  return false;
 }
 
 int processors() {
@@ -27,12 +48,10 @@ int processors() {
 
 template <int Dim>
 int threads_that_pay(const model::BasicModel<Dim>& model) {
-  constexpr std::size_t fewest = 3000;
-  if (Dim * model.reference.size() < fewest) return 1;
-  for (const auto& pair : model.pairs)
-    if (has_own_law(pair.definition)) return 1;
-  for (const auto& change : model.pair_changes)
-    if (has_own_law(change)) return 1;
+  constexpr std::ptrdiff_t fewest = 3000;
+  const auto rigid = std::ranges::count_if(model.body_of_node, [](Index b) { return b >= 0; });
+  const auto nodes = static_cast<std::ptrdiff_t>(model.reference.size()) - rigid;
+  if (Dim * nodes < fewest || calls_others(model) || std::getenv("OSCULATE_ALONE")) return 1;
   return processors();
 }
 

@@ -7,8 +7,9 @@ namespace osculate::api {
 ///
 /// Returns    what OMP_NUM_THREADS says; else as many as there are processors for this process or
 ///            its group, four at most: loops that wait for memory gain little from more. 1 in
-///            models of fewer than 3000 unknowns, whose loops are too short, and with laws of one's
-///            own, whose authors may not have thought of threads
+///            models of fewer than 3000 displacements, whose loops are too short, with laws and
+///            materials of one's own, whose authors may not have thought of threads, and where
+///            several such programs are under way (OSCULATE_ALONE)
 /// Decision   docs/decisions/120-threads-by-default.md
 /// Tested by  tests/unit/api/test_threads.cpp
 template <int Dim>

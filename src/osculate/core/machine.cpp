@@ -1,5 +1,6 @@
 #include "osculate/core/machine.hpp"
 
+#include <sched.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -33,7 +34,10 @@ int processors_of(const std::string& cpu_max) {
 }
 
 int processors_here() {
-  const int may = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  cpu_set_t set;
+  const int may = sched_getaffinity(0, sizeof(set), &set) == 0
+                      ? std::max(1, CPU_COUNT(&set))
+                      : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   std::string line;
   std::getline(std::ifstream("/sys/fs/cgroup/cpu.max"), line);
   const int of_group = processors_of(line);

@@ -80,6 +80,7 @@ void keep_freed_memory() {
   constexpr int largest_block = 32 << 20, most = 128 << 20, first_pages = 24 << 20;
   (void)mallopt(M_MMAP_THRESHOLD, largest_block);
   (void)mallopt(M_TRIM_THRESHOLD, most);
+  (void)mallopt(M_ARENA_MAX, 1);  // each thread would have one, of 64 MB of addresses
   use_large_pages_first(first_pages);
 }
 

@@ -12,6 +12,7 @@
 #include "osculate/core/machine.hpp"
 #include "osculate/core/memory.hpp"
 #include "osculate/la/accuracy.hpp"
+#include "osculate/la/blas_at_start.hpp"
 #include "osculate/la/mumps_library.hpp"
 #include "osculate/la/ordering.hpp"
 #include "osculate/la/timed.hpp"
@@ -107,11 +108,6 @@ struct Mumps::Impl {
 
 namespace {
 
-bool room_for_buffers() {
-  constexpr std::size_t buffers = std::size_t{256} << 20U;
-  return core::can_allocate(buffers);
-}
-
 template <class Call>
 bool open_by(DMUMPS_STRUC_C& id, int kind, int communicator, const Call& call) {
   id = {};
@@ -132,13 +128,13 @@ bool open_by(DMUMPS_STRUC_C& id, int kind, int communicator, const Call& call) {
 }  // namespace
 
 bool mumps::open_library(DMUMPS_STRUC_C& id, int kind) {
-  if (!room_for_buffers()) throw NotEnoughMemory("not enough memory for the linear solver");
+  if (!take_blas_buffer()) throw NotEnoughMemory("not enough memory for the linear solver");
   return open_by(id, kind, use_communicator_world, [](DMUMPS_STRUC_C& of) { dmumps_c(&of); });
 }
 
 bool mumps::open_library(DMUMPS_STRUC_C& id, int kind, const SharedMumps& shared,
                          const core::Ranks& ranks) {
-  if (!ranks.all(room_for_buffers()))
+  if (!ranks.all(take_blas_buffer()))
     throw NotEnoughMemory("not enough memory for the linear solver");
   if (!open_by(id, kind, shared.communicator, [&](DMUMPS_STRUC_C& of) { shared.call(&of); }))
     return false;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 
 namespace osculate::material {
 namespace {
@@ -14,6 +15,11 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 /// them shows.
 constexpr std::size_t behind = 64;
 constexpr double untouched = -6.02214076e-123;
+
+std::mutex& one_at_a_time() {
+  static std::mutex lock;
+  return lock;
+}
 
 /// UMAT's order of components, which swaps the last two.
 Vec<6> swapped(Vec<6> v) {
@@ -40,7 +46,7 @@ UserRoutine::UserRoutine(osculate_user_material* function, std::shared_ptr<void>
 }
 
 std::string UserRoutine::complaint() const {
-  const std::scoped_lock lock(one_at_a_time_);
+  const std::scoped_lock lock(one_at_a_time());
   return complaint_;
 }
 
@@ -61,7 +67,7 @@ std::string UserRoutine::problem_of(const UserPoint& p, double shorter) const {
 }
 
 bool UserRoutine::ask(UserPoint& p) const {  // long: the arguments of UMAT
-  const std::scoped_lock lock(one_at_a_time_);
+  const std::scoped_lock lock(one_at_a_time());
   std::fill(props_.begin() + static_cast<std::ptrdiff_t>(constants_), props_.end(), unknown);
   std::fill(state_.begin(), state_.begin() + static_cast<std::ptrdiff_t>(count_), 0.0);
   if (p.state) std::copy_n(p.state, count_, state_.begin());

@@ -1,6 +1,5 @@
 #pragma once
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
@@ -24,8 +23,9 @@ struct UserPoint {
   Mat<6, 6> tangent = Mat<6, 6>::Zero();      ///< answered alone
 };
 
-/// A routine with the constants of a material. It is asked about one point at a time, by whatever
-/// thread: many such routines keep numbers of their own between their statements.
+/// A routine with the constants of a material. All routines together are asked about one point at a
+/// time, by whatever thread: many keep numbers of their own between their statements, and one
+/// routine may serve several materials.
 ///
 /// Tested by  tests/unit/material/test_user_material.cpp
 class UserRoutine {
@@ -47,7 +47,6 @@ class UserRoutine {
   std::shared_ptr<void> library_;
   std::string name_;
   std::size_t constants_, count_;
-  mutable std::mutex one_at_a_time_;
   mutable std::vector<double> props_, state_;  ///< with marked numbers behind
   mutable std::string complaint_;
 };

@@ -53,6 +53,18 @@ Eigen::VectorXd BasicSystem<Dim>::Impl::added_external(const State& state) {
   return last.forces.external - before;
 }
 
+namespace {
+
+void take_factors(const la::CriticalFactors& found, Buckling& out) {
+  out.failure = found.failure;
+  out.factors = found.values;
+  out.reversed = found.reversed;
+  out.residual = found.residual;
+  out.missing = found.missing;
+}
+
+}  // namespace
+
 template <int Dim>
 Buckling BasicSystem<Dim>::buckling(const State& state, int count, la::LinearSolver& solver) {
   Impl& s = *impl_;
@@ -106,11 +118,7 @@ Buckling BasicSystem<Dim>::buckling(const State& state, int count, la::LinearSol
   }
   const la::CriticalFactors found =
       la::critical_factors(k, added, s.constraints.count(), count, solver);
-  out.failure = found.failure;
-  out.factors = found.values;
-  out.reversed = found.reversed;
-  out.residual = found.residual;
-  out.missing = found.missing;
+  take_factors(found, out);
   out.shapes.resize(state.u.size(), found.values.size());
   for (Eigen::Index i = 0; i < found.values.size(); ++i)
     out.shapes.col(i) = s.motion_of_all(x, state, found.vectors.col(i)).head(state.u.size());

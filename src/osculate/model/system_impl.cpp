@@ -388,6 +388,15 @@ void BasicSystem<Dim>::Impl::add_turning(const State& now, std::span<const Vec<D
 }
 
 template <int Dim>
+void BasicSystem<Dim>::Impl::begin_tangent() {
+  reserve_pattern();
+  if (bulk.which != Cells::all)
+    builder.clear(changing);
+  else if (!on(Term::bulk))
+    builder.clear();
+}
+
+template <int Dim>
 void BasicSystem<Dim>::Impl::assemble_terms(const State& committed, const Trial& trial,
                                             double fraction, bool with_tangent, Pass pass,
                                             solve::Evaluation& out) {
@@ -396,13 +405,7 @@ void BasicSystem<Dim>::Impl::assemble_terms(const State& committed, const Trial&
   out.apart = false;
   out.message.clear();
   last.clear(dofs.dofs(), constraints.count());
-  if (with_tangent) {
-    reserve_pattern();
-    if (bulk.which != Cells::all)
-      builder.clear(changing);
-    else if (!on(Term::bulk))
-      builder.clear();
-  }
+  if (with_tangent) begin_tangent();
   const std::vector<Vec<Dim>> x = positions(now.u);
   if (motion) motion->begin_increment(committed, fraction, time_between(committed, fraction));
   if (motion && !motion->failure.empty()) {

@@ -69,6 +69,8 @@ struct BasicSystem<Dim>::Impl {
   void prescribe(std::vector<bool> unknowns);
   /// The places of all cells in the matrix.
   void reserve_pattern();
+  /// Where cells do not clear the matrix themselves.
+  void begin_tangent();
 
   [[nodiscard]] bool flies_apart(const State& committed, const State& trial,
                                  solve::Evaluation& out) const;

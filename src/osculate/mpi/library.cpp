@@ -3,7 +3,6 @@
 #include <dmumps_c.h>
 #include <mpi.h>
 
-#include <array>
 #include <cstdlib>
 #include <numeric>
 #include <string_view>
@@ -77,21 +76,14 @@ bool on_one_machine() {
 }
 
 /// What is sent within one machine goes through its memory. Open MPI would look for networks first,
-/// for 0.2 s of each run. What somebody has chosen for it stays.
+/// for 0.2 s of each run. What the command line or the environment has chosen stays.
 void begin_mpi() {
-  struct Setting {
-    const char *name, *value;
-  };
-  constexpr std::array settings{Setting{"OMPI_MCA_pml", "ob1"},
-                                Setting{"OMPI_MCA_btl", "self,vader"}};
-  bool by_memory = on_one_machine();
-  for (const Setting& s : settings) by_memory = by_memory && std::getenv(s.name) == nullptr;
-  if (by_memory)
-    for (const Setting& s : settings) (void)setenv(s.name, s.value, 0);
+  constexpr const char* messages = "OMPI_MCA_pml";
+  const bool by_memory = on_one_machine() && std::getenv(messages) == nullptr;
+  if (by_memory) (void)setenv(messages, "ob1", 0);
   int provided = 0;
   MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
-  if (by_memory)  // what this program starts is not told of it
-    for (const Setting& s : settings) (void)unsetenv(s.name);
+  if (by_memory) (void)unsetenv(messages);  // what this program starts is not told of it
 }
 
 void call_mumps(void* structure) { dmumps_c(static_cast<DMUMPS_STRUC_C*>(structure)); }

@@ -258,6 +258,21 @@ bool is_sound(S& system, la::LinearSolver& solver, FormerFactors& former,
   return false;
 }
 
+/// Whether the iterations end with the last correction. Its state gets its tangent, which `known`
+/// states lack, where that is asked whether it holds everything, or another iteration follows.
+template <System S>
+bool ends(S& system, const typename S::State& committed, double time, la::LinearSolver& solver,
+          FormerFactors& former, bool known, bool last, NewtonResult<typename S::Trial>& result) {
+  const auto with_tangent = [&] {
+    system.evaluate(committed, result.trial, time, true, result.evaluation);
+  };
+  const bool look = known && last && former.doubtful(system, result);
+  if (look) with_tangent();
+  const bool ended = last && is_sound(system, solver, former, result);
+  if (known && !look && !ended) with_tangent();
+  return ended;
+}
+
 /// A correction of the trial, and from where it began.
 struct Correction {
   const Eigen::VectorXd &du, &residual;  ///< residual before it
@@ -385,11 +400,7 @@ template <System S>
     if (result.total.size() == 0) result.total.setZero(du.size());
     result.total += searched.step * du;
     const bool last = detail::conclude(judge, du, searched.step, energy_before, result, former);
-    const bool look = known && last && former.doubtful(system, result);
-    if (look) system.evaluate(committed, result.trial, time, true, result.evaluation);
-    const bool ended = last && detail::is_sound(system, solver, former, result);
-    if (known && !look && !ended)
-      system.evaluate(committed, result.trial, time, true, result.evaluation);
+    const bool ended = detail::ends(system, committed, time, solver, former, known, last, result);
     if (peeling.turns(system, committed, time, ended, result))
       judge.begin_again();
     else if (ended) {

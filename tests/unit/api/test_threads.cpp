@@ -9,6 +9,7 @@
 
 #include "osculate/contact/law/user_laws.hpp"
 #include "osculate/core/machine.hpp"
+#include "osculate/material/user_material.hpp"
 
 namespace osculate::api {
 namespace {
@@ -71,6 +72,34 @@ TEST(Threads, AreNoneBesideTheFirstForLawsOfOnesOwn) {
   EXPECT_EQ(threads_with(later, "3"), 3);
   later.pair_changes.back().friction = contact::UserFriction{};
   EXPECT_EQ(threads_with(later, "3"), 1);
+}
+
+TEST(Threads, AreNoneBesideTheFirstForMaterialsOfOnesOwn) {
+  model::Model3 model = of_nodes<3>(1000);
+  model.sections.emplace_back();
+  EXPECT_EQ(threads_with(model, "3"), 3);
+  model.sections.back().section.law = material::UserMaterial{};
+  EXPECT_EQ(threads_with(model, "3"), 1);
+
+  model::Model later = of_nodes<2>(1500);
+  later.body_changes.emplace_back().materials.emplace_back();
+  EXPECT_EQ(threads_with(later, "3"), 3);
+  later.body_changes.back().materials.back().now.law = material::UserMaterial{};
+  EXPECT_EQ(threads_with(later, "3"), 1);
+}
+
+TEST(Threads, AreCountedByWhatMoves) {
+  model::Model3 model = of_nodes<3>(1000);
+  model.body_of_node.assign(1000, -1);
+  EXPECT_EQ(threads_with(model, "3"), 3);
+  model.body_of_node.back() = 0;
+  EXPECT_EQ(threads_with(model, "3"), 1);
+}
+
+TEST(Threads, AreNoneBesideTheFirstWhereSeveralProgramsAreUnderWay) {
+  setenv("OSCULATE_ALONE", "1", 1);
+  EXPECT_EQ(threads_with(of_nodes<3>(1000), "3"), 1);
+  unsetenv("OSCULATE_ALONE");
 }
 
 }  // namespace

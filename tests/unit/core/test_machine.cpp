@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <sched.h>
 
 #include "osculate/core/machine.hpp"
 #include "ranks.hpp"
@@ -24,6 +25,17 @@ TEST(Machines, AGroupHasAsManyProcessorsAsItsTimeAmountsTo) {
   EXPECT_EQ(processors_of("1 0"), 0);
   EXPECT_EQ(processors_of(""), 0);
   EXPECT_GE(processors_here(), 1);
+}
+
+TEST(Machines, AProcessThatIsBoundToOneProcessorHasOne) {
+  cpu_set_t all, one;
+  ASSERT_EQ(sched_getaffinity(0, sizeof(all), &all), 0);
+  CPU_ZERO(&one);
+  for (unsigned cpu = 0; CPU_COUNT(&one) == 0 && cpu < CPU_SETSIZE; ++cpu)
+    if (CPU_ISSET(cpu, &all)) CPU_SET(cpu, &one);
+  ASSERT_EQ(sched_setaffinity(0, sizeof(one), &one), 0);
+  EXPECT_EQ(processors_here(), 1);
+  EXPECT_EQ(sched_setaffinity(0, sizeof(all), &all), 0);
 }
 
 TEST(Machines, AMarkIsANumberThatAllProcessesOfAMachineHave) {
