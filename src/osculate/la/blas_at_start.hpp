@@ -14,8 +14,8 @@ namespace osculate::la {
 /// Tested by  tests/unit/la/test_blas_at_start.cpp
 void prepare_blas();
 
-/// Has the BLAS library take the buffer that it works in, while there is room for it and for as much
-/// again: where there is none when it needs one, it asks for it without end.
+/// Has the BLAS library take the buffer that it works in, while there is room for it and for as
+/// much again: where there is none when it needs one, it asks for it without end.
 ///
 /// Returns    false: there is no room, now
 /// Tested by  tests/system/test_memory.py
