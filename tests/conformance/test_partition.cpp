@@ -90,6 +90,29 @@ void expect_no_difference(const std::string& text) {
 TEST_P(Partition, OfThePlaneShowsInNoBit) { expect_no_difference<2>(in_the_plane(GetParam())); }
 TEST_P(Partition, OfSpaceShowsInNoBit) { expect_no_difference<3>(in_space(GetParam())); }
 
+/// A block slides as far as it is long, in one step: partners in contact are others at the end.
+TEST(Partition, ChangesWithinAStep) {
+  const std::string text =
+      "osculate: 1\nmesh:\n  generate:\n"
+      "    low: {box: {x: [0, 6], y: [0, 0.2], elements: [60, 1]}}\n"
+      "    up: {box: {x: [0.22, 2.62], y: [0.2, 0.5], elements: [24, 2]}}\n"
+      "materials: {m: {st_venant_kirchhoff: {E: 100, nu: 0.3}}}\nsections:\n"
+      "  - {on: low, material: m, element: plane_strain}\n"
+      "  - {on: up, material: m, element: plane_strain}\n"
+      "contact: [{name: c, master: low.top, slave: up.bottom, sampling: nodes, friction: {coulomb: "
+      "{mu: 0.2}}}]\n"
+      "steps: [{name: slide, increments: 6, prescribe: [{on: low.bottom, ux: 0, uy: 0}, {on: "
+      "up.top, "
+      "ux: 2.4, uy: -0.002}]}]\n"
+      "output: {history: [{on: c, of: normal_force}, {on: c, of: force_x}]}\n";
+  const deck::Description description = deck::parse_model(text, "generated.yaml");
+  const auto built =
+      std::get<deck::BasicBuilt<2>>(deck::build_any(description, deck::load_mesh(description)));
+  const testing::Outcome alone = testing::analysed<2>(built, nullptr);
+  ASSERT_EQ(alone.outcome, solve::Outcome::converged) << alone.message;
+  testing::expect_the_same_by<2>(2, built, alone, 0, 2);
+}
+
 INSTANTIATE_TEST_SUITE_P(Of, Partition, ::testing::ValuesIn(analyses),
                          [](const auto& tested) { return tested.param.name; });
 

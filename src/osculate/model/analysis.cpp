@@ -309,7 +309,12 @@ struct Analysis {
       ++progress.increment;
       progress.fraction = record.fraction;
       progress.time = begun + record.fraction * length_of(step);
-      return tell(state, &record);
+      const bool go_on = tell(state, &record);
+      if (go_on && record.fraction < 1 && system.share_anew(state)) {
+        solver->begin_anew();
+        position.anew = true;
+      }
+      return go_on;
     };
     const auto on_cutback = [&](const std::string& reason, double from, double to,
                                 const std::vector<solve::IterationRecord>& iterations) {

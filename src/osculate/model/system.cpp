@@ -80,11 +80,18 @@ void BasicSystem<Dim>::begin_step(const Step& step, const State& committed) {
     for (pairing::PairEvaluation<Dim>& contact : impl_->last.contact) contact = {};
   impl_->begin_drivers();
   if (iterates(step))
-    impl_->share(committed.pairs);
+    (void)impl_->share(committed.pairs);
   else
     impl_->share_no_more();
   // Explicit time integration says itself which cells are to keep a matrix.
   if (!step.dynamics || !step.dynamics->explicit_steps) impl_->bulk.keep_linear();
+}
+
+template <int Dim>
+bool BasicSystem<Dim>::share_anew(const State& committed) {
+  if (!impl_->bulk.ranks || !impl_->share(committed.pairs)) return false;
+  impl_->bulk.keep_linear();
+  return true;
 }
 
 template <int Dim>

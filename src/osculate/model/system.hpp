@@ -77,6 +77,9 @@ class BasicSystem {
   void build_anew();
   /// Fixes what is prescribed and loaded during a step; start values come from `committed`.
   void begin_step(const Step& step, const State& committed);
+  /// Between two increments of a step: processes deal out nodes anew where contact has moved, as
+  /// they do where a step begins. False: nothing has changed.
+  bool share_anew(const State& committed);
   /// Processes do all of the work each from here on, until a step begins.
   void share_no_more();
   /// The committed state with what the running step needs of it: accelerations and the energies of

@@ -122,13 +122,13 @@ std::vector<la::MatrixPlace> places_of_all(const core::Ranks& ranks, const std::
 }  // namespace
 
 template <int Dim>
-void BasicSystem<Dim>::Impl::share(std::span<const pairing::PairState<Dim>> contact_now) {
-  if (!ranks) return;
+bool BasicSystem<Dim>::Impl::share(std::span<const pairing::PairState<Dim>> contact_now) {
+  if (!ranks) return false;
   std::optional<std::vector<int>> next;
   if (ranks->rank() == 0)
     next = bulk.ranks ? better_owners<Dim>(model, contact_now, owner, ranks->count(), unevenness)
                       : node_owners<Dim>(model, contact_now, ranks->count());
-  if (!ranks->any(next.has_value())) return;
+  if (!ranks->any(next.has_value())) return false;
   owner = next ? std::move(*next) : std::vector<int>(model.reference.size());
   ranks->spread(owner, 0);
   const std::vector<la::MatrixPlace> grown = grown_by_all();
@@ -136,6 +136,7 @@ void BasicSystem<Dim>::Impl::share(std::span<const pairing::PairState<Dim>> cont
   bulk.shares = shares_of(model, dofs, constraints.count(), owner, ranks->rank(), ranks->count());
   contact.workers = {&bulk.crew, ranks, bulk.shares.seen};
   begin_matrix(grown);
+  return true;
 }
 
 template <int Dim>

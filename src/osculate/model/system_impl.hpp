@@ -55,8 +55,8 @@ struct BasicSystem<Dim>::Impl {
 
   Impl(const BasicModel<Dim>& m, int threads, const core::Ranks* of);
   /// The processes share cells and rows from here on, if there are several; where they do already
-  /// and contact has moved, by other owners (better_owners).
-  void share(std::span<const pairing::PairState<Dim>> contact_now);
+  /// and contact has moved, by other owners (better_owners). False: all is as it was.
+  bool share(std::span<const pairing::PairState<Dim>> contact_now);
   /// Each does all of it.
   void share_no_more();
   /// Before another builder takes the place of this one: the entries that contact has had, on all
