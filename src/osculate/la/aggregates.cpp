@@ -29,62 +29,56 @@ double square_of(double entry) {
 }
 
 /// Square of the norm of a block of the diagonal.
-double own_square(const CompressedRows& a, Index first, Index last) {
+double own_square(const GroupedRows& a, std::size_t g) {
+  const Eigen::MatrixXd block = a.diagonal_block(g);
   double square = 0;
-  for (Index i = first; i < last; ++i) {
-    const Index* const column = a.innerIndexPtr();
-    const Index end = a.outerIndexPtr()[i + 1];
-    const auto from = std::lower_bound(column + a.outerIndexPtr()[i], column + end, first) - column;
-    for (auto e = static_cast<Index>(from); e < end && column[e] < last; ++e)
-      if (a.valuePtr()[e] != 0) square += square_of(a.valuePtr()[e]);
-  }
+  for (Eigen::Index i = 0; i < block.rows(); ++i)
+    for (Eigen::Index j = 0; j < block.cols(); ++j)
+      if (block(i, j) != 0) square += square_of(block(i, j));
   return square;
 }
 
 /// Squares of the norms of the blocks of one row of groups.
 class RowOfBlocks {
  public:
-  RowOfBlocks(const CompressedRows& a, const GroupStarts& start, std::span<const Index> group_of)
-      : a_(a), start_(start), group_of_(group_of), square_(start.size() - 1, 0) {}
+  RowOfBlocks(const GroupedRows& a, std::span<const Index> group_of)
+      : a_(a), group_of_(group_of), square_(a.groups().size() - 1, 0) {}
   /// The groups met, `square` is theirs until the next call.
   const std::vector<Index>& visit(Index g) {
     for (const Index h : met_) square_[as_size(h)] = 0;
     met_.clear();
-    for (Index i = start_[as_size(g)]; i < start_[as_size(g) + 1]; ++i)
-      for (CompressedRows::InnerIterator entry(a_, i); entry; ++entry) {
-        if (entry.value() == 0 || entry.col() >= a_.rows()) continue;
-        const Index h = group_of_[as_size(static_cast<Index>(entry.col()))];
-        if (square_[as_size(h)] == 0) met_.push_back(h);
-        square_[as_size(h)] += square_of(entry.value());
-      }
+    a_.for_each(as_size(g), [&](Index, Index column, double value) {
+      if (value == 0 || column >= a_.rows()) return;
+      const Index h = group_of_[as_size(column)];
+      if (square_[as_size(h)] == 0) met_.push_back(h);
+      square_[as_size(h)] += square_of(value);
+    });
     return met_;
   }
   [[nodiscard]] double square(Index h) const { return square_[as_size(h)]; }
 
  private:
-  const CompressedRows& a_;
-  const GroupStarts& start_;
+  const GroupedRows& a_;
   std::span<const Index> group_of_;
   std::vector<Index> met_;
   std::vector<double> square_;
 };
 
-Neighbours neighbours(const CompressedRows& a, const GroupStarts& start,
-                      std::span<const char> left_out, double strength, core::Crew& crew) {
+Neighbours neighbours(const GroupedRows& a, std::span<const char> left_out, double strength,
+                      core::Crew& crew) {
   constexpr std::size_t worth_it = 200;
-  const std::size_t groups = start.size() - 1;
+  const std::size_t groups = a.groups().size() - 1;
   const std::size_t pieces = std::clamp<std::size_t>(groups / worth_it, 1, 16);
   const auto begin = [&](std::size_t p) { return static_cast<Index>(groups * p / pieces); };
-  const std::vector<Index> group_of = groups_of_rows(start);
+  const std::vector<Index> group_of = groups_of_rows(a.groups());
   std::vector<double> own(groups);
   crew.share(pieces, [&](std::size_t p) {
-    for (Index g = begin(p); g < begin(p + 1); ++g)
-      own[as_size(g)] = own_square(a, start[as_size(g)], start[as_size(g) + 1]);
+    for (Index g = begin(p); g < begin(p + 1); ++g) own[as_size(g)] = own_square(a, as_size(g));
   });
   const double least = strength * strength * strength * strength;
   std::vector<Neighbours> piece(pieces);
   crew.share(pieces, [&](std::size_t p) {
-    RowOfBlocks row(a, start, group_of);
+    RowOfBlocks row(a, group_of);
     Neighbours& of = piece[p];
     for (Index g = begin(p); g < begin(p + 1); ++g) {
       if (left_out[as_size(g)] == 0)
@@ -108,10 +102,10 @@ Neighbours neighbours(const CompressedRows& a, const GroupStarts& start,
 
 }  // namespace
 
-Aggregates aggregate(const CompressedRows& a, const GroupStarts& start,
-                     std::span<const char> left_out, double strength, core::Crew& crew) {
-  const Neighbours near = neighbours(a, start, left_out, strength, crew);
-  const auto groups = static_cast<Index>(start.size() - 1);
+Aggregates aggregate(const GroupedRows& a, std::span<const char> left_out, double strength,
+                     core::Crew& crew) {
+  const Neighbours near = neighbours(a, left_out, strength, crew);
+  const auto groups = static_cast<Index>(a.groups().size() - 1);
   Aggregates out{0, std::vector<Index>(as_size(groups), -1)};
   std::vector<Index>& of = out.of_group;
   const auto is_free = [&](Index g) { return left_out[as_size(g)] == 0 && of[as_size(g)] < 0; };

@@ -2,12 +2,9 @@
 #include <span>
 #include <vector>
 
-#include "osculate/la/compressed_rows.hpp"
+#include "osculate/la/grouped_rows.hpp"
 
 namespace osculate::la {
-
-/// Groups of unknowns, as those of a node: group g has the unknowns start[g] to start[g + 1] - 1.
-using GroupStarts = std::vector<Index>;
 
 struct Aggregates {
   Index count = 0;
@@ -18,12 +15,11 @@ struct Aggregates {
 /// one of them, then the rest.
 ///
 /// Formula    g and h are neighbours where |A_gh|_F^2 > strength^2 |A_gg|_F |A_hh|_F
-/// Shapes     left_out: one per group; columns beyond the rows of `a`, of other processes, do not
-///            count
+/// Shapes     left_out: one per group of rows; columns beyond the rows of `a`, of other processes,
+///            do not count
 /// Source     P. Vanek, J. Mandel, M. Brezina, Computing 56 (1996) 179-196, section 5.1
 /// Tested by  tests/unit/la/test_multigrid.cpp
-[[nodiscard]] Aggregates aggregate(const CompressedRows& a, const GroupStarts& start,
-                                   std::span<const char> left_out, double strength,
-                                   core::Crew& crew);
+[[nodiscard]] Aggregates aggregate(const GroupedRows& a, std::span<const char> left_out,
+                                   double strength, core::Crew& crew);
 
 }  // namespace osculate::la

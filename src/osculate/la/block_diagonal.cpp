@@ -8,15 +8,6 @@ namespace {
 
 constexpr std::size_t blocks_at_least = 500;  // groups, while a thread is told of them
 
-Eigen::MatrixXd block_of(const CompressedRows& a, Index first, Index size) {
-  Eigen::MatrixXd block = Eigen::MatrixXd::Zero(size, size);
-  for (Index i = 0; i < size; ++i)
-    for (CompressedRows::InnerIterator entry(a, first + i); entry; ++entry)
-      if (entry.col() >= first && entry.col() < first + size)
-        block(i, entry.col() - first) = entry.value();
-  return block;
-}
-
 Eigen::MatrixXd inverse_of_block(Eigen::MatrixXd block) {
   constexpr double digits = 1e-7;
   const Eigen::Index size = block.rows();
@@ -38,27 +29,20 @@ void apply_block(const double* block, const Eigen::VectorXd& r, Index first, Ind
 
 }  // namespace
 
-BlockDiagonal::BlockDiagonal(const CompressedRows& a, const GroupStarts& start, core::Crew& crew)
-    : start_(start) {
-  for (std::size_t g = 0; g + 1 < start.size(); ++g) {
-    const std::size_t size = as_size(start[g + 1] - start[g]);
+BlockDiagonal::BlockDiagonal(const GroupedRows& a, core::Crew& crew) : start_(a.groups()) {
+  for (std::size_t g = 0; g + 1 < start_.size(); ++g) {
+    const std::size_t size = as_size(start_[g + 1] - start_[g]);
     place_.push_back(place_[g] + size * size);
   }
   value_.resize(place_.back());
-  crew.share_runs(start.size() - 1, blocks_at_least, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t g = begin; g < end; ++g) {
-      const Eigen::MatrixXd inverse =
-          inverse_of_block(block_of(a, start[g], start[g + 1] - start[g]));
-      std::copy_n(inverse.data(), inverse.size(), value_.data() + place_[g]);
-    }
-  });
+  update(a, nullptr, crew);
 }
 
-void BlockDiagonal::update(const GroupedRows& a, const std::vector<char>& groups,
+void BlockDiagonal::update(const GroupedRows& a, const std::vector<char>* groups,
                            core::Crew& crew) {
-  crew.share_runs(groups.size(), blocks_at_least, [&](std::size_t begin, std::size_t end) {
+  crew.share_runs(start_.size() - 1, blocks_at_least, [&](std::size_t begin, std::size_t end) {
     for (std::size_t g = begin; g < end; ++g) {
-      if (groups[g] == 0) continue;
+      if (groups && (*groups)[g] == 0) continue;
       const Eigen::MatrixXd inverse = inverse_of_block(a.diagonal_block(g));
       std::copy_n(inverse.data(), inverse.size(), value_.data() + place_[g]);
     }
@@ -81,7 +65,7 @@ void BlockDiagonal::apply(const Eigen::VectorXd& r, core::Crew& crew, Eigen::Vec
   });
 }
 
-CompressedRows BlockDiagonal::as_matrix() const {
+GroupedRows BlockDiagonal::as_matrix(core::Crew& crew) const {
   const Index n = start_.empty() ? 0 : start_.back();
   CompressedRows out(n, n);
   out.resizeNonZeros(static_cast<Index>(value_.size()));
@@ -97,7 +81,7 @@ CompressedRows BlockDiagonal::as_matrix() const {
     }
   }
   out.outerIndexPtr()[n] = next;
-  return out;
+  return {out, start_, crew};
 }
 
 }  // namespace osculate::la

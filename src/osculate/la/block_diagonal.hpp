@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "osculate/core/crew.hpp"
-#include "osculate/la/aggregates.hpp"
 #include "osculate/la/grouped_rows.hpp"
 
 namespace osculate::la {
@@ -15,12 +14,12 @@ namespace osculate::la {
 class BlockDiagonal {
  public:
   BlockDiagonal() = default;
-  BlockDiagonal(const CompressedRows& a, const GroupStarts& start, core::Crew& crew);
-  /// Takes some groups' blocks from another matrix of the same groups.
-  void update(const GroupedRows& a, const std::vector<char>& groups, core::Crew& crew);
+  BlockDiagonal(const GroupedRows& a, core::Crew& crew);
+  /// Takes some groups' blocks from another matrix of the same groups; null: all.
+  void update(const GroupedRows& a, const std::vector<char>* groups, core::Crew& crew);
   /// y = D^-1 r
   void apply(const Eigen::VectorXd& r, core::Crew& crew, Eigen::VectorXd& y) const;
-  [[nodiscard]] CompressedRows as_matrix() const;
+  [[nodiscard]] GroupedRows as_matrix(core::Crew& crew) const;
 
  private:
   GroupStarts start_;

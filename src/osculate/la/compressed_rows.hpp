@@ -46,8 +46,5 @@ void for_each_entry(const SparseMatrix& k, Symmetry symmetry, const Take& take) 
 /// y = A x, row by row with several threads: the bits do not depend on their number.
 void multiply(const CompressedRows& a, const Eigen::VectorXd& x, core::Crew& crew,
               Eigen::VectorXd& y);
-/// A B, likewise.
-[[nodiscard]] CompressedRows product(const CompressedRows& a, const CompressedRows& b,
-                                     core::Crew& crew);
 
 }  // namespace osculate::la

@@ -64,11 +64,11 @@ GroupStarts groups_of(const Places& places, const Part& part) {
   return start;
 }
 
-std::vector<char> standing_alone(const CompressedRows& a) {
-  std::vector<char> alone(as_size(static_cast<Index>(a.rows())), 1);
-  for (Index i = 0; i < a.rows(); ++i)
-    for (CompressedRows::InnerIterator entry(a, i); entry; ++entry)
-      if (entry.col() != i) alone[as_size(i)] = 0;
+std::vector<char> standing_alone(const GroupedRows& a) {
+  std::vector<char> alone(as_size(a.rows()), 1);
+  a.for_each([&](Index row, Index column, double) {
+    if (column != row) alone[as_size(row)] = 0;
+  });
   return alone;
 }
 
@@ -76,7 +76,7 @@ std::vector<char> standing_alone(const CompressedRows& a) {
 /// unknown that has nothing to do with others, as where its motion is prescribed, or of no node.
 ///
 /// Shapes     a row per own unknown, three columns in the plane and six in space
-Eigen::MatrixXd own_motions(const CompressedRows& a, const Places& places, const Part& part) {
+Eigen::MatrixXd own_motions(const GroupedRows& a, const Places& places, const Part& part) {
   const int dim = places.dimension;
   const auto n = static_cast<Index>(places.node.size());
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
@@ -134,26 +134,11 @@ bool alike(const SparseMatrix& a, const SparseMatrix& b) {
   return same;
 }
 
-/// Calls take(row, column, value), row by row, for some columns, of which `before` says how many
-/// are below each.
-template <class Take>
-void for_each(const CompressedRows& a, const std::vector<Index>& before, const Take& take) {
-  for (Index i = 0; i < a.rows(); ++i)
-    for (CompressedRows::InnerIterator entry(a, i); entry; ++entry)
-      if (const auto c = static_cast<std::size_t>(entry.col()); before[c] < before[c + 1])
-        take(i, static_cast<Index>(entry.col()), entry.value());
-}
-template <class Take>
-void for_each(const GroupedRows& a, const std::vector<Index>& before, const Take& take) {
-  a.for_each(before, take);
-}
-
 /// What is solved for directly: rows and columns of the matrix that are of contact.
 class Exact {
  public:
   /// `may_keep`: factors of an earlier matrix serve on where that was alike. False: singular.
-  template <class Rows>
-  bool factor(const Rows& a, const Places& places, const Part& part, Symmetry symmetry,
+  bool factor(const GroupedRows& a, const Places& places, const Part& part, Symmetry symmetry,
               const MumpsOptions& options, bool may_keep) {
     kept_ = false;
     take_columns(a, places, part);
@@ -189,8 +174,7 @@ class Exact {
   }
 
  private:
-  template <class Rows>
-  void take_columns(const Rows& a, const Places& places, const Part& part) {
+  void take_columns(const GroupedRows& a, const Places& places, const Part& part) {
     unknowns_.clear();
     own_.clear();
     std::vector<Index> position(places.node.size(), -1);
@@ -207,10 +191,10 @@ class Exact {
     std::vector<Index> before{0};
     for (Index column = 0; column < part.halo.here(); ++column)
       before.push_back(before.back() + (position[as_size(part.unknown(column))] >= 0 ? 1 : 0));
-    for_each(a, before, [&](Index i, Index column, double value) {
+    a.for_each(before, [&](Index i, Index column, double value) {
       entries.emplace_back(i, position[as_size(part.unknown(column))], value);
     });
-    columns_.resize(static_cast<Index>(a.rows()), static_cast<Index>(unknowns_.size()));
+    columns_.resize(a.rows(), static_cast<Index>(unknowns_.size()));
     columns_.setFromTriplets(entries.begin(), entries.end());
   }
   [[nodiscard]] SparseMatrix few_rows(const Part& part) const {
@@ -248,15 +232,13 @@ class MultigridEngine final : public Engine {
   bool build(const SparseMatrix& k, Symmetry symmetry, const Places& places) override {
     call_crew(places.threads);
     a_ = {};
-    in_step_ = false;
     bodies_.reset();
     part_ = {};
     part_.dealt = dealt_as(k);
-    if (!build(take_part(k, symmetry), symmetry, places)) return false;
-    take(take_part(k, symmetry), places);  // not before: the coarser models take most memory
+    symmetry_ = symmetry;
+    take(take_part(k, symmetry), places);
     remember(k);
-    in_step_ = true;
-    return true;
+    return build_again(places);
   }
   bool refresh(const SparseMatrix& k, Symmetry symmetry, const Places& places) override {
     call_crew(places.threads);
@@ -269,8 +251,12 @@ class MultigridEngine final : public Engine {
   }
   [[nodiscard]] bool keeps_factors() const override { return exact_.kept(); }
   bool build_again(const Places& places) override {
-    in_step_ = false;  // `a_` may have places for zeros
-    return build(a_.as_rows(), symmetry_, places);
+    call_crew(places.threads);
+    in_step_ = false;
+    if (!exact_.factor(a_, places, part_, symmetry_, direct_, false)) return false;
+    bodies_ = std::make_unique<Multigrid>(*crew_);
+    in_step_ = bodies_->build(a_, part_.halo, own_motions(a_, places, part_));
+    return in_step_;
   }
   Nearby solve(const PreconditionedLimits& limits, Eigen::VectorXd& rhs) override {
     PreconditionedSolutions by(
@@ -356,14 +342,6 @@ class MultigridEngine final : public Engine {
             1;
       }
     return may;
-  }
-  bool build(CompressedRows&& a, Symmetry symmetry, const Places& places) {
-    call_crew(places.threads);
-    symmetry_ = symmetry;
-    if (!exact_.factor(a, places, part_, symmetry, direct_, false)) return false;
-    bodies_ = std::make_unique<Multigrid>(*crew_);
-    Eigen::MatrixXd motions = own_motions(a, places, part_);
-    return bodies_->build(std::move(a), part_.halo, groups_of(places, part_), std::move(motions));
   }
   void take(const CompressedRows& a, const Places& places) {
     a_ = {};

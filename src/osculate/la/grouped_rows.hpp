@@ -7,9 +7,12 @@
 #include <vector>
 
 #include "osculate/core/crew.hpp"
-#include "osculate/la/aggregates.hpp"
+#include "osculate/la/compressed_rows.hpp"
 
 namespace osculate::la {
+
+/// Groups of unknowns, as those of a node: group g has the unknowns start[g] to start[g + 1] - 1.
+using GroupStarts = std::vector<Index>;
 
 /// A matrix to be multiplied with often. Rows of a group have their columns in common: entries of a
 /// column stand together, and consecutive columns are named once, so that an entry of three rows
@@ -61,15 +64,18 @@ class GroupedRows {
   /// Calls take(row, column, value) for what is not zero, and for the diagonal.
   template <class Take>
   void for_each(const Take& take) const {
-    for (std::size_t g = 0; g + 1 < groups_.size(); ++g)
-      for (Index i = 0; i < size_of(g); ++i) {
-        const double* next = values_.data() + first_value_[g] + i;
-        for (std::size_t r = first_run_[g]; r < first_run_[g + 1]; ++r)
-          for (Index k = 0; k < runs_[r].count; ++k, next += size_of(g))
-            if (const Index row = groups_[g] + i, column = runs_[r].first + k;
-                *next != 0 || row == column)
-              take(row, column, *next);
-      }
+    for (std::size_t g = 0; g + 1 < groups_.size(); ++g) for_each(g, take);
+  }
+  /// The same in the rows of a group.
+  template <class Take>
+  void for_each(std::size_t g, const Take& take) const {
+    for (Index i = 0; i < size_of(g); ++i) {
+      const double* next = values_.data() + first_value_[g] + i;
+      for (const Run& run : runs(g))
+        for (Index k = 0; k < run.count; ++k, next += size_of(g))
+          if (const Index row = groups_[g] + i, column = run.first + k; *next != 0 || row == column)
+            take(row, column, *next);
+    }
   }
   /// The same in some columns, of which `before` says how many are below each.
   ///

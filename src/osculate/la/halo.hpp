@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "osculate/core/ranks.hpp"
-#include "osculate/la/aggregates.hpp"
+#include "osculate/la/grouped_rows.hpp"
 
 namespace osculate::la {
 

@@ -1,23 +1,28 @@
 #include "osculate/la/multigrid.hpp"
 
 #include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 #include <vector>
 
+#include "osculate/la/aggregates.hpp"
 #include "osculate/la/block_diagonal.hpp"
 #include "osculate/la/by_itself.hpp"
 #include "osculate/la/compact_rows.hpp"
 #include "osculate/la/long_vectors.hpp"
 #include "osculate/la/mumps.hpp"
 #include "osculate/la/preconditioned.hpp"
+#include "osculate/la/sparse_product.hpp"
 
 namespace osculate::la {
 namespace {
 
 /// One model. Its products are of entries in two bytes: they are a preconditioner's.
 struct Level {
-  CompressedRows a;  ///< for as long as a coarser model is made of it
+  const GroupedRows* a = nullptr;  ///< for as long as a coarser model is made of it
+  GroupedRows kept;                ///< what `a` is, but of the finest one
   Halo halo;
   CompactRows products, p, transposed;  ///< the last two lead to the next coarser one
   GroupStarts start;                    ///< of own unknowns
@@ -28,8 +33,12 @@ struct Level {
   Eigen::VectorXd r, d, t, of_coarse;
 
   void take_products(const GroupedRows& matrix, core::Crew& crew);
+  void leave() {
+    a = nullptr;
+    kept = {};
+  }
   /// What the smoother needs; false: there are no numbers.
-  bool prepare_smoother(const CompressedRows& matrix, core::Crew& crew);
+  bool prepare_smoother(core::Crew& crew);
   bool refresh_smoother(const GroupedRows& matrix, const std::vector<char>* differs,
                         core::Crew& crew);
   bool find_largest(int rounds, core::Crew& crew);
@@ -45,11 +54,11 @@ void Level::take_products(const GroupedRows& matrix, core::Crew& crew) {
   products = CompactRows(matrix, crew, size);
 }
 
-bool Level::prepare_smoother(const CompressedRows& matrix, core::Crew& crew) {
+bool Level::prepare_smoother(core::Crew& crew) {
   constexpr int rounds = 15;
   products = {};  // gives its memory back before
-  take_products(GroupedRows(matrix, start, crew), crew);
-  inverse = BlockDiagonal(matrix, start, crew);
+  take_products(*a, crew);
+  inverse = BlockDiagonal(*a, crew);
   stiffest = noise(halo.own()).normalized();
   return find_largest(rounds, crew);
 }
@@ -59,12 +68,11 @@ bool Level::refresh_smoother(const GroupedRows& matrix, const std::vector<char>*
   constexpr int rounds = 10;
   if (differs) {
     products.copy(matrix, *differs, crew);
-    inverse.update(matrix, *differs, crew);
   } else {
     products = {};
     take_products(matrix, crew);
-    inverse.update(matrix, std::vector<char>(start.size() - 1, 1), crew);
   }
+  inverse.update(matrix, differs, crew);
   stiffest.normalize();
   stiffest += noise(halo.own()).normalized();  // contact that has closed may be stiffer, elsewhere
   return find_largest(rounds, crew);
@@ -174,7 +182,7 @@ Tentative tentative(const Level& fine, const Aggregates& aggregates) {
       for (Index i = fine.start[g]; i < fine.start[g + 1]; ++i)
         members[as_size(aggregates.of_group[g])].push_back(i);
   const Eigen::Index modes = fine.near_null.cols();
-  Bases bases(fine.a.rows());
+  Bases bases(fine.halo.own());
   Tentative out;
   out.near_null.resize(modes * aggregates.count, modes);
   for (const std::vector<Index>& unknowns : members) {
@@ -192,6 +200,21 @@ Tentative tentative(const Level& fine, const Aggregates& aggregates) {
   }
   out.near_null.conservativeResize(out.start.back(), modes);
   out.p = bases.as_matrix(out.start.back());
+  return out;
+}
+
+/// Consecutive rows that have their columns in common, as those of a coarser model's node have.
+GroupStarts groups_alike(const CompressedRows& a) {
+  constexpr Index most = 6;
+  const auto columns_of = [&](Index i) {
+    const Index *const start = a.outerIndexPtr(), *const column = a.innerIndexPtr();
+    return std::span(column + start[i], column + start[i + 1]);
+  };
+  GroupStarts out{0};
+  for (Index i = 1; i <= a.rows(); ++i)
+    if (i == a.rows() || i - out.back() == most ||
+        !std::ranges::equal(columns_of(i), columns_of(out.back())))
+      out.push_back(i);
   return out;
 }
 
@@ -224,10 +247,10 @@ bool Multigrid::Impl::coarsen() {
   Level& fine = *levels.back();
   const core::Ranks* const ranks = fine.halo.ranks();
   const auto times_a = [&](const CompressedRows& b) {
-    return ranks ? product(fine.a, with_rows_of_others(b, fine.halo), crew)
-                 : product(fine.a, b, crew);
+    return ranks ? product(*fine.a, with_rows_of_others(b, fine.halo), crew)
+                 : product(*fine.a, b, crew);
   };
-  const Aggregates aggregates = aggregate(fine.a, fine.start, left_out(fine), strength, crew);
+  const Aggregates aggregates = aggregate(*fine.a, left_out(fine), strength, crew);
   Tentative next = tentative(fine, aggregates);
   const std::vector<Index> first = dealt_out(ranks, next.start.back());
   const Index unknowns = first.back();
@@ -236,31 +259,35 @@ bool Multigrid::Impl::coarsen() {
   if (ranks) put_everywhere(next.p, first[static_cast<std::size_t>(ranks->rank())], unknowns);
   {
     const CompressedRows spread = times_a(next.p);
-    const CompressedRows scaled = product(fine.inverse.as_matrix(), spread, crew);
+    const CompressedRows scaled = product(fine.inverse.as_matrix(crew), spread, crew);
     next.p = next.p - (damping / fine.largest) * scaled;
     next.p.makeCompressed();
   }
   auto coarse = std::make_unique<Level>();
-  CompressedRows transposed;
+  GroupedRows transposed;
   {
     CompressedRows spread = times_a(next.p);
-    release(fine.a);
-    transposed = next.p.transpose();
+    fine.leave();
+    CompressedRows columns = next.p.transpose();
+    transposed = GroupedRows(columns, ranks ? groups_alike(columns) : next.start, crew);
+    release(columns);
     CompressedRows all = product(transposed, spread, crew);
     release(spread);
     CompressedRows a = summed_up(all, ranks, first);
     coarse->halo = halo_of(ranks, first, {&a, &next.p});
-    with_columns_here(a, coarse->halo).swap(coarse->a);
+    coarse->kept = GroupedRows(with_columns_here(a, coarse->halo), next.start, crew);
+    coarse->a = &coarse->kept;
   }
   const CompressedRows p = with_columns_here(next.p, coarse->halo);
-  if (ranks) transposed = p.transpose();
+  if (ranks)
+    transposed =
+        GroupedRows(CompressedRows(p.transpose()), with_others(next.start, coarse->halo), crew);
   fine.p = CompactRows(GroupedRows(p, fine.start, crew), crew);
-  fine.transposed =
-      CompactRows(GroupedRows(transposed, with_others(next.start, coarse->halo), crew), crew);
+  fine.transposed = CompactRows(transposed, crew);
   coarse->start = std::move(next.start);
   coarse->near_null = std::move(next.near_null);
   fine.near_null = {};
-  entries += fine.halo.sum(static_cast<double>(coarse->a.nonZeros()));
+  entries += fine.halo.sum(static_cast<double>(coarse->kept.entries()));
   levels.push_back(std::move(coarse));
   return true;
 }
@@ -268,28 +295,26 @@ bool Multigrid::Impl::coarsen() {
 Multigrid::Multigrid(core::Crew& crew) : impl_(std::make_unique<Impl>(crew)) {}
 Multigrid::~Multigrid() = default;
 
-bool Multigrid::build(CompressedRows&& a, Halo halo, GroupStarts groups,
-                      Eigen::MatrixXd near_null) {
+bool Multigrid::build(const GroupedRows& a, Halo halo, Eigen::MatrixXd near_null) {
   constexpr Index coarsest = 1500, too_many = 10 * coarsest;
   constexpr std::size_t most_levels = 12;
   Impl& s = *impl_;
   forget();
   s.levels.push_back(std::make_unique<Level>());
-  s.levels[0]->a.swap(a);  // matrices of Eigen are copied where they are moved
-  s.entries = s.finest_entries = halo.sum(static_cast<double>(s.levels[0]->a.nonZeros()));
+  s.levels[0]->a = &a;
+  s.entries = s.finest_entries = halo.sum(static_cast<double>(a.entries()));
   s.levels[0]->halo = std::move(halo);
-  s.levels[0]->start = std::move(groups);
+  s.levels[0]->start = a.groups();
   s.levels[0]->near_null = std::move(near_null);
   while (s.levels.back()->halo.everywhere() > coarsest && s.levels.size() < most_levels) {
-    Level& last = *s.levels.back();
-    if (!last.prepare_smoother(last.a, s.crew)) return false;
+    if (!s.levels.back()->prepare_smoother(s.crew)) return false;
     if (!s.coarsen()) break;
   }
   const Halo& last = s.levels.back()->halo;
   if (last.ranks() && last.everywhere() > too_many) return false;  // all would be on each process
   s.coarsest = std::make_unique<Mumps>();
-  const SparseMatrix whole = stored(gathered(s.levels.back()->a, last));
-  release(s.levels.back()->a);
+  const SparseMatrix whole = stored(gathered(s.levels.back()->a->as_rows(), last));
+  s.levels.back()->leave();
   const FactorReport report =
       by_itself(last.ranks(), [&] { return s.coarsest->factor(whole, 0, Symmetry::unsymmetric); });
   s.coarsest->keep_factors_alone();

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "osculate/core/crew.hpp"
-#include "osculate/la/aggregates.hpp"
 #include "osculate/la/grouped_rows.hpp"
 #include "osculate/la/halo.hpp"
 
@@ -34,10 +33,10 @@ class Multigrid {
 
   /// Builds the coarser models. False: it cannot be, as where a body is free to move.
   ///
-  /// Shapes     a: the rows of this process, with the columns of `halo`; near_null: a row per own
-  ///            unknown. Unknowns of rows of zeros are in no coarser model; groups whose block is
-  ///            not positive definite are not smoothed either
-  bool build(CompressedRows&& a, Halo halo, GroupStarts groups, Eigen::MatrixXd near_null);
+  /// Shapes     a: the rows of this process, with the columns of `halo`, needed for this call;
+  ///            near_null: a row per own unknown. Unknowns of rows of zeros are in no coarser
+  ///            model; groups whose block is not positive definite are not smoothed either
+  bool build(const GroupedRows& a, Halo halo, Eigen::MatrixXd near_null);
   /// Takes another matrix of the same groups, near to the one that it was built of: the coarser
   /// models stay. False: it has to be built.
   ///

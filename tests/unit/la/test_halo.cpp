@@ -207,7 +207,7 @@ double rate(const SparseMatrix& k, const ElasticBlock& block, const CompressedRo
     motions.col(m) = here.own(block.rigid_motions().col(m)).head(here.halo.own());
   core::Crew crew(1);
   Multigrid cycle(crew);
-  EXPECT_TRUE(cycle.build(CompressedRows(here.a), here.halo, here.nodes(), motions));
+  EXPECT_TRUE(cycle.build(GroupedRows(here.a, here.nodes(), crew), here.halo, motions));
   EXPECT_GE(cycle.levels(), levels);
   return rate(cycle, block, here, all);
 }
