@@ -117,7 +117,37 @@ template <class Derived>
 [[nodiscard]] bool everywhere(const Eigen::ArrayBase<Derived>& m) {
   return m.all();
 }
+template <int N>
+[[nodiscard]] BasicPack<N> larger_of(const BasicPack<N>& a, const BasicPack<N>& b) {
+  return BasicPack<N>::of(a.v > b.v ? a.v : b.v);
+}
+/// Whether all eigenvalues of symmetric matrices are below limits, each by itself: by the pivots of
+/// limit I - matrix. Within rounding of the limit either answer.
+///
+/// Shapes     matrix: n x n, column by column, whose lower triangle is used up
+template <int N>
+[[nodiscard]] typename BasicPack<N>::Mask eigenvalues_below(const BasicPack<N>& limit, int n,
+                                                            BasicPack<N>* matrix) {
+  typename BasicPack<N>::Mask below = limit > -1e300;
+  for (int j = 0; j < n; ++j) {
+    BasicPack<N>* const column = matrix + n * j;
+    const BasicPack<N> pivot = limit - column[j], scale = 1 / pivot;
+    below = below && pivot > 0;
+    for (int k = j + 1; k < n; ++k) {
+      const BasicPack<N> factor = scale * column[k];
+      BasicPack<N>* const of_k = matrix + n * k;
+      for (int i = k; i < n; ++i) of_k[i] += factor * column[i];
+    }
+  }
+  return below;
+}
 /// Each by itself.
+template <int N>
+[[nodiscard]] BasicPack<N> square_root_of(const BasicPack<N>& a) {
+  BasicPack<N> out;
+  for (int lane = 0; lane < N; ++lane) out.set(lane, std::sqrt(a[lane]));
+  return out;
+}
 template <int N>
 [[nodiscard]] BasicPack<N> cube_root_of(const BasicPack<N>& a) {
   BasicPack<N> out;

@@ -124,7 +124,8 @@ bool solves(Problem& p) {
 }
 
 /// Vectors of the space in which M is not zero, normalised; and how good they are. Values that
-/// cannot be told from 0 are 0.
+/// cannot be told from 0 are 0. Beside vectors without stiffness Lanczos' method loses half of the
+/// digits of others: where rounding does not explain that a value is not v . K v it is that.
 void clean(Problem& p, Eigenpairs& pairs) {
   const Sparse sizes = p.k.cwiseAbs();
   for (Eigen::Index i = 0; i < pairs.values.size(); ++i) {
@@ -137,8 +138,12 @@ void clean(Problem& p, Eigenpairs& pairs) {
     const Eigen::VectorXd kv = p.k * v, most = sizes * v.cwiseAbs();
     const double rounding = 4 * std::numeric_limits<double>::epsilon() * v.cwiseAbs().dot(most);
     pairs.rounding = std::max(pairs.rounding, rounding);
-    const bool free = std::abs(v.dot(kv)) <= rounding;
-    if (free) pairs.values[i] = 0;
+    const double quotient = v.dot(kv);
+    const bool free = std::abs(quotient) <= rounding;
+    if (free)
+      pairs.values[i] = 0;
+    else if (std::abs(quotient - pairs.values[i]) > rounding)
+      pairs.values[i] = quotient;
     const double off = (kv - pairs.values[i] * mv).norm(),
                  scale = free ? most.norm()
                               : (std::abs(pairs.values[i]) + std::abs(pairs.shift)) * mv.norm();

@@ -267,30 +267,12 @@ bool ForceBatches<Dim>::energy(std::size_t number, const Nodal& u, double& sum) 
 }
 
 template <int Dim>
-const Eigen::MatrixXd* ForceBatches<Dim>::stiffness(std::size_t job, Stiffness& last) const {
-  if (!takes(job)) return nullptr;
-  const std::size_t number = place_[job] / lanes, lane = place_[job] % lanes;
+bool ForceBatches<Dim>::stiffness(std::size_t number, const Nodal& u, Matrix& out) const {
   const Four& four = fours_[number];
-  if (!solid::linear_batch<Dim>(kinds_[four.kind])) return nullptr;
-  if (last.four == number) return &last.of_lane[lane];
-  const auto dofs = static_cast<std::size_t>(Dim * nodes_of(four));
-  const auto size = static_cast<Eigen::Index>(dofs);
-  for (Eigen::MatrixXd& k : last.of_lane) k.resize(size, size);
-  Values along, force;
-  along.fill(Pack::Zero());
-  for (std::size_t column = 0; column < dofs; ++column) {
-    along[column] = Pack(1.0);
-    if (!solid::batch_forces<Dim>(kinds_[four.kind], &numbers_[four.numbers], along.data(),
-                                  force.data()))
-      return nullptr;
-    along[column] = Pack::Zero();
-    for (std::size_t row = 0; row < dofs; ++row)
-      for (int l = 0; l < lanes; ++l)
-        last.of_lane[static_cast<std::size_t>(l)](
-            static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column)) = force[row][l];
-  }
-  last.four = number;
-  return &last.of_lane[lane];
+  Values along;
+  gather(four, u, along);
+  return solid::batch_stiffness<Dim>(kinds_[four.kind], &numbers_[four.numbers], along.data(),
+                                     out.data());
 }
 
 template class ForceBatches<2>;

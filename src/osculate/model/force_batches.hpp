@@ -74,14 +74,13 @@ class ForceBatches {
   void add(std::size_t four, const Values& forces, Nodal& sum) const;
   /// Stored energy of a batch. False as above.
   [[nodiscard]] bool energy(std::size_t four, const Nodal& u, double& sum) const;
-  /// Stiffness matrices of the last batch that was asked for.
-  struct Stiffness {
-    std::size_t four = static_cast<std::size_t>(-1);
-    std::array<Eigen::MatrixXd, core::Pack::count> of_lane;
-  };
-  /// The stiffness of a job whose forces are linear, column by column from them; null: it is of
-  /// another kind. It stands in `last`.
-  [[nodiscard]] const Eigen::MatrixXd* stiffness(std::size_t job, Stiffness& last) const;
+  [[nodiscard]] std::size_t dofs(std::size_t four) const {
+    return static_cast<std::size_t>(Dim * nodes_of(fours_[four]));
+  }
+  using Matrix = std::array<core::Pack, most_dofs * most_dofs>;
+  /// The stiffness of a batch (solid::batch_stiffness), dofs x dofs, column by column. False as
+  /// above.
+  [[nodiscard]] bool stiffness(std::size_t four, const Nodal& u, Matrix& out) const;
 
  private:
   static constexpr int lanes = core::Pack::count;

@@ -45,7 +45,8 @@ struct BasicSystem<Dim>::Impl::Explicit {
   /// What a thread works with.
   struct Work {
     BulkBlock block;
-    typename ForceBatches<Dim>::Nodal along, force;  ///< of a part
+    typename ForceBatches<Dim>::Nodal along, force;         ///< of a part
+    typename ForceBatches<Dim>::Matrix stiffness, scratch;  ///< of a batch
   };
   /// A rigid body in space that turns by itself: its angular momentum, and the moment on it.
   struct Turning {
@@ -210,10 +211,11 @@ struct BasicSystem<Dim>::Impl::Explicit {
     double value = 0, beside = 0;
     Index cell = -1;  ///< whose `value` it is
   };
-  [[nodiscard]] Eigen::MatrixXd scaled_stiffness(std::size_t cell, BulkBlock& block,
-                                                 typename ForceBatches<Dim>::Stiffness& last);
-  void look_at(std::size_t cell, BulkBlock& block, typename ForceBatches<Dim>::Stiffness& last,
-               Fastest& fastest);
+  [[nodiscard]] double mass_of(std::size_t cell, std::size_t node) const;
+  [[nodiscard]] Eigen::MatrixXd scaled_stiffness(std::size_t cell, BulkBlock& block);
+  void compare(std::size_t cell, double value, Fastest& fastest) const;
+  void look_at(std::size_t cell, BulkBlock& block, Fastest& fastest);
+  void look_at_batch(std::size_t four, Work& with, Fastest& fastest);
   [[nodiscard]] Fastest fastest_before();
   [[nodiscard]] Fastest of_all(const Fastest& here) const;
   [[nodiscard]] std::string governed() const;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "osculate/core/dense.hpp"
 #include "osculate/model/system_explicit.hpp"
@@ -15,24 +16,32 @@ constexpr int known_for = 100;  ///< time steps until what changes is measured a
 
 }  // namespace
 
+template <int Dim>
+double BasicSystem<Dim>::Impl::Explicit::mass_of(std::size_t cell, std::size_t node) const {
+  const auto n = static_cast<Eigen::Index>(node);
+  return scaled.factor(cell) * system.motion->inertia.cells()[cell].mass(n, n);
+}
+
 /// M^-1/2 K M^-1/2 of a cell by itself; empty where it has no answer (the next time step says so).
 template <int Dim>
-Eigen::MatrixXd BasicSystem<Dim>::Impl::Explicit::scaled_stiffness(
-    std::size_t cell, BulkBlock& block, typename ForceBatches<Dim>::Stiffness& last) {
-  constexpr int most = Dim * solid::max_nodes<Dim>;
-  const Eigen::MatrixXd* const of_batch = batches.stiffness(cell, last);
-  if (!of_batch) {
-    system.bulk.evaluate(cell, motion.position, now.memory, {}, 0, true, block);
-    if (!block.ok) return {};
-  }
-  const Eigen::MatrixXd& mass_of = system.motion->inertia.cells()[cell].mass;
-  const double factor = scaled.factor(cell);
-  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most, 1> root(of_batch ? of_batch->rows()
-                                                                     : block.dof_count);
+Eigen::MatrixXd BasicSystem<Dim>::Impl::Explicit::scaled_stiffness(std::size_t cell,
+                                                                   BulkBlock& block) {
+  system.bulk.evaluate(cell, motion.position, now.memory, {}, 0, true, block);
+  if (!block.ok) return {};
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, Dim * solid::max_nodes<Dim>, 1> root(block.dof_count);
   for (Eigen::Index d = 0; d < root.size(); ++d)
-    root[d] = 1 / std::sqrt(factor * mass_of(d / Dim, d / Dim));
-  if (of_batch) return root.asDiagonal() * *of_batch * root.asDiagonal();
+    root[d] = 1 / std::sqrt(mass_of(cell, static_cast<std::size_t>(d / Dim)));
   return root.asDiagonal() * block.result.tangent * root.asDiagonal();
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::Explicit::compare(std::size_t cell, double value,
+                                               Fastest& fastest) const {
+  if (value > fastest.value) {
+    fastest.value = value;
+    fastest.cell = static_cast<Index>(cell);
+  }
+  if (touching[cell]) fastest.beside = std::max(fastest.beside, value);
 }
 
 /// The eigenvalues themselves are only looked for where a factorisation does not show that they are
@@ -41,19 +50,45 @@ Eigen::MatrixXd BasicSystem<Dim>::Impl::Explicit::scaled_stiffness(
 /// Formula    lambda_max(A) < s if s I - A is positive definite
 template <int Dim>
 void BasicSystem<Dim>::Impl::Explicit::look_at(std::size_t cell, BulkBlock& block,
-                                               typename ForceBatches<Dim>::Stiffness& last,
                                                Fastest& fastest) {
   constexpr double equal = 1e-12;  // cells of one shape differ in their last digits
-  const Eigen::MatrixXd scaled = scaled_stiffness(cell, block, last);
-  if (scaled.size() == 0) return;
+  const Eigen::MatrixXd scaled_by_mass = scaled_stiffness(cell, block);
+  if (scaled_by_mass.size() == 0) return;
   const double known = touching[cell] ? fastest.beside : fastest.value;
-  if (core::eigenvalues_below(scaled, known * (1 + equal))) return;
-  const double value = core::eigenvalues(scaled).maxCoeff();
-  if (value > fastest.value) {
-    fastest.value = value;
-    fastest.cell = static_cast<Index>(cell);
+  if (core::eigenvalues_below(scaled_by_mass, known * (1 + equal))) return;
+  compare(cell, core::eigenvalues(scaled_by_mass).maxCoeff(), fastest);
+}
+
+/// Likewise, all cells of a batch at once. Their stiffness has seven digits.
+template <int Dim>
+void BasicSystem<Dim>::Impl::Explicit::look_at_batch(std::size_t four, Work& with,
+                                                     Fastest& fastest) {
+  constexpr double equal = 1e-6;
+  const std::span<const std::size_t> jobs = batches.jobs(four);
+  if (!batches.stiffness(four, with.along, with.stiffness)) {
+    for (const std::size_t cell : jobs) look_at(cell, with.block, fastest);
+    return;
   }
-  if (touching[cell]) fastest.beside = std::max(fastest.beside, value);
+  const std::size_t dofs = batches.dofs(four);
+  core::Pack limit;
+  typename ForceBatches<Dim>::Values root;
+  for (int lane = 0; lane < core::Pack::count; ++lane) {
+    const std::size_t cell = jobs[std::min(static_cast<std::size_t>(lane), jobs.size() - 1)];
+    limit.set(lane, (1 + equal) * (touching[cell] ? fastest.beside : fastest.value));
+    for (std::size_t d = 0; d < dofs; ++d) root[d].set(lane, 1 / std::sqrt(mass_of(cell, d / Dim)));
+  }
+  for (std::size_t j = 0; j < dofs; ++j)
+    for (std::size_t i = 0; i < dofs; ++i) with.stiffness[dofs * j + i] *= root[i] * root[j];
+  std::copy_n(with.stiffness.begin(), dofs * dofs, with.scratch.begin());
+  const auto n = static_cast<Eigen::Index>(dofs);
+  const auto below = core::eigenvalues_below(limit, static_cast<int>(dofs), with.scratch.data());
+  for (std::size_t lane = 0; lane < jobs.size(); ++lane) {
+    if (below.v[lane] != 0) continue;
+    Eigen::MatrixXd of_cell(n, n);
+    for (Eigen::Index e = 0; e < of_cell.size(); ++e)
+      of_cell.data()[e] = with.stiffness[static_cast<std::size_t>(e)][static_cast<int>(lane)];
+    compare(jobs[lane], core::eigenvalues(of_cell).maxCoeff(), fastest);
+  }
 }
 
 /// What governed before, by the process that has its cell.
@@ -66,8 +101,7 @@ BasicSystem<Dim>::Impl::Explicit::fastest_before() {
   bool here = !system.ranks;
   for (std::size_t p = parts.from; p < parts.to && !here; ++p)
     for_each_job(p, [&](std::size_t job) { here = here || job == cell; });
-  typename ForceBatches<Dim>::Stiffness last;
-  if (here) look_at(cell, work.front().block, last, found);
+  if (here) look_at(cell, work.front().block, found);
   return of_all(found);
 }
 
@@ -101,8 +135,11 @@ void BasicSystem<Dim>::Impl::Explicit::measure_stable_step() {
   const Fastest before = fastest_before();
   std::vector<Fastest> of_part(batches.parts(), before);
   for_parts([&](std::size_t part, Work& with) {
-    typename ForceBatches<Dim>::Stiffness last;
-    for_each_job(part, [&](std::size_t cell) { look_at(cell, with.block, last, of_part[part]); });
+    batches.gather(part, motion.position, with.along);
+    const auto fours = batches.fours(part), others = batches.alone(part);
+    for (std::size_t f = fours.begin; f < fours.end; ++f) look_at_batch(f, with, of_part[part]);
+    for (std::size_t i = others.begin; i < others.end; ++i)
+      look_at(batches.others()[i], with.block, of_part[part]);
   });
   Fastest all = before;
   for (const Fastest& f : of_part) {

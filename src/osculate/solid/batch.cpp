@@ -1,6 +1,8 @@
 #include "osculate/solid/batch.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
+#include <utility>
 
 #include "osculate/core/processor.hpp"
 #include "osculate/solid/batch_points.hpp"
@@ -258,6 +260,58 @@ bool linear_batch(const Batch<Dim>& batch) {
   return batch.section.kinematics == Kinematics::small && material::linear(batch.section.law);
 }
 
+namespace {
+
+/// About the least distance between opposite sides, as the cell was.
+template <int Dim>
+Pack least_width(const Batch<Dim>& batch, const Pack* numbers) {
+  Pack most = Pack::Zero();  // square of its inverse
+  const auto look_at = [&](const Pack& square) { most = larger_of(most, square); };
+  const auto square_of = [](const auto& v) {
+    Pack sum = v(0) * v(0);
+    for (int i = 1; i < Dim; ++i) sum += v(i) * v(i);
+    return sum;
+  };
+  if (batch.kind == BatchKind::simplex)
+    for (int k = 0; k <= Dim; ++k)
+      look_at(square_of([&](int i) { return numbers[1 + Dim * k + i]; }));
+  else
+    for (int axis = 0; axis < Dim; ++axis)
+      look_at(1 / square_of([&](int i) {
+                return 2 * batches::Factors<Dim, Pack>{numbers}(
+                               std::size_t{1} << static_cast<unsigned>(axis), i);
+              }));
+  return 1 / square_root_of(most);
+}
+
+}  // namespace
+
+template <int Dim>
+bool batch_stiffness(const Batch<Dim>& batch, const Pack* numbers, const Pack* u, Pack* stiffness) {
+  constexpr double way = 1e-7;
+  const auto dofs = static_cast<std::size_t>(Dim * cell::info(batch.type).nodes);
+  const bool linear = linear_batch(batch);
+  const Pack d = linear ? Pack(1) : way * least_width(batch, numbers), scale = 1 / d;
+  std::array<Pack, CellBasis<Dim>::dofs> at, before;
+  at.fill(Pack::Zero());
+  if (!linear) std::copy_n(u, dofs, at.begin());
+  if (!batch_forces(batch, numbers, at.data(), before.data())) return false;
+  std::fill_n(stiffness, Dim * dofs, Pack::Zero());
+  for (std::size_t j = Dim; j < dofs; ++j) {
+    Pack* const column = stiffness + dofs * j;
+    const Pack kept = std::exchange(at[j], at[j] + d);
+    if (!batch_forces(batch, numbers, at.data(), column)) return false;
+    at[j] = kept;
+    for (std::size_t i = 0; i < dofs; ++i) {
+      column[i] = scale * (column[i] - before[i]);
+      stiffness[dofs * (j % Dim) + i] -= column[i];
+    }
+  }
+  return true;
+}
+
+template bool batch_stiffness(const Batch<2>&, const Pack*, const Pack*, Pack*);
+template bool batch_stiffness(const Batch<3>&, const Pack*, const Pack*, Pack*);
 template bool batch_energy(const Batch<2>&, const Pack*, const Pack*, Pack&);
 template bool batch_energy(const Batch<3>&, const Pack*, const Pack*, Pack&);
 template std::optional<EightCells> eight_cells(const Batch<2>&);

@@ -70,4 +70,16 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] bool linear_batch(const Batch<Dim>& batch);
 
+/// The stiffness of four cells, column by column from their forces: exact where these are linear,
+/// else to seven digits, which is enough for how fast a cell is.
+///
+/// Formula    K_j = (f(u + d e_j) - f(u)) / d , d = 1e-7 of the least width; of linear forces
+///            f(e_j) . The columns of a node are less the sum of all others': what all nodes have
+///            in common makes no forces
+/// Shapes     stiffness: dofs x dofs
+/// Returns    false: as batch_forces
+template <int Dim>
+[[nodiscard]] bool batch_stiffness(const Batch<Dim>& batch, const core::Pack* numbers,
+                                   const core::Pack* u, core::Pack* stiffness);
+
 }  // namespace osculate::solid
