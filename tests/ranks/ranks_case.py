@@ -9,7 +9,7 @@ import tempfile
 import unittest
 
 PROGRAM, MPIRUN, PATIENT, SOURCE = sys.argv[1:5]
-TIMES = ("seconds", "contact_seconds", "peak_memory_mb")
+TIMES = ("seconds", "contact_seconds", "peak_memory_mb", "processes")
 
 
 def environment(**more):

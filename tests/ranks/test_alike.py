@@ -1,4 +1,5 @@
 """Several processes do what one does: the same iterations, states of contact points and histories."""
+import json
 import os
 from concurrent.futures import ThreadPoolExecutor
 
@@ -33,6 +34,27 @@ class Alike(RanksCase):
             for job, done in [(job, pool.submit(self.compare, *job)) for job in jobs]:
                 with self.subTest(model=job[1]):
                     done.result()
+
+    def test_says_how_evenly_processes_have_worked(self):
+        self.write(next(iter(MODELS.values())))
+        for processes in (1, 3):
+            self.run_program(processes, "run", "model.yaml", "-o", str(processes))
+        summaries, logs = [], []
+        for out in ("1", "3"):
+            with open(self.path(out, "summary.json")) as summary, open(self.path(out, "log.txt")) as log:
+                summaries.append(json.load(summary))
+                logs.append(log.read())
+        self.assertNotIn("processes", summaries[0])
+        self.assertNotIn("processes:", logs[0])
+        found = summaries[1]["processes"]
+        working = found["working"]
+        self.assertEqual((len(working), len(found["peak_memory_mb"])), (3, 3))
+        self.assertEqual(found["slowest"], working.index(max(working)))
+        self.assertAlmostEqual(found["imbalance"], 3 * max(working) / sum(working), 6)
+        for seconds, memory in zip(working, found["peak_memory_mb"]):
+            self.assertTrue(0 < seconds < summaries[1]["seconds"]["total"] + 0.1, seconds)
+            self.assertGreater(memory, 1)
+        self.assertRegex(logs[1], rf"processes: 3, at work for .* the slowest \({found['slowest']}\)")
 
     def modes(self, out):
         steps = self.summary(out)["steps"]

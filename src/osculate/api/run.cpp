@@ -59,6 +59,7 @@ RunOutcome finish(Recorder<Dim>& recorder, const model::BasicAnalysisResult<Dim>
   recorder.say_all(recorder.watch.end(all || free_to_move));
   recorder.say_all(result::chosen_time_steps_text(result.steps, steps));
   recorder.say_all(result::linear_systems_text(result.linear));
+  recorder.say_all(result::processes_text(result.processes));
   summary["message"] = outcome.message;
   summary.update(recorder.owner);
   if (result.failure) summary["diagnosis"] = result::diagnosis_json(recorder.built.model, result);

@@ -70,6 +70,13 @@ double memory_available() {
   return available;
 }
 
+double most_resident() {
+  constexpr double kilobyte = 1024;
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return kilobyte * static_cast<double>(usage.ru_maxrss);
+}
+
 bool can_allocate(std::size_t bytes) {
   void* const probe = std::malloc(bytes);  // not touched, so nothing is taken
   std::free(probe);

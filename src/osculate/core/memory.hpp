@@ -12,6 +12,9 @@ namespace osculate::core {
 /// What of it is free now, or can be made so.
 [[nodiscard]] double memory_available();
 
+/// The most that this process has had in the memory at once [bytes].
+[[nodiscard]] double most_resident();
+
 /// Whether so many bytes can be allocated now; they are not kept.
 [[nodiscard]] bool can_allocate(std::size_t bytes);
 

@@ -36,6 +36,8 @@ class Ranks {
   /// each has for this one. `to` and `from` say how many there are; all know of each other's.
   virtual void exchange(std::span<const double> values, std::span<const int> to,
                         std::span<double> received, std::span<const int> from) const = 0;
+  /// What calls of these functions have taken here: messages, and waiting for the others.
+  [[nodiscard]] virtual double seconds() const { return 0; }
   /// This process takes leave, as all others do.
   virtual void finish() const = 0;
   /// Ends all processes.

@@ -420,6 +420,7 @@ BasicAnalysisResult<Dim> run(const BasicModel<Dim>& model, const AnalysisOptions
                              const BasicAnalysisObserver<Dim>& observer,
                              const BasicResumePoint<Dim>* from) {
   const auto start = std::chrono::steady_clock::now();
+  const double in_calls = options.ranks ? options.ranks->seconds() : 0;
   std::optional<BasicModel<Dim>> changing;  // where it changes from step to step
   if (!model.pair_changes.empty() || !model.body_changes.empty()) changing = model;
   if (changing) {
@@ -463,6 +464,9 @@ BasicAnalysisResult<Dim> run(const BasicModel<Dim>& model, const AnalysisOptions
   result.seconds_system = a.system.seconds();
   a.take_leave();
   result.seconds = seconds_since(start);
+  if (options.ranks)
+    result.processes =
+        records_of(options.ranks, result.seconds, options.ranks->seconds() - in_calls);
   return result;
 }
 

@@ -6,6 +6,7 @@
 
 #include "osculate/la/shared_solvers.hpp"
 #include "osculate/model/failure.hpp"
+#include "osculate/model/process_records.hpp"
 #include "osculate/model/system.hpp"
 #include "osculate/solve/increments.hpp"
 
@@ -68,6 +69,7 @@ struct BasicAnalysisResult {
   SystemSeconds seconds_system;              ///< of its evaluations
   double seconds_solver = 0;                 ///< of the linear solver: factors and solutions
   la::IterativeWork linear;                  ///< what it did by iterations
+  std::vector<ProcessRecord> processes;      ///< of several
   Index unknowns = 0;
 };
 

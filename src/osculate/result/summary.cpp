@@ -1,7 +1,6 @@
 #include "osculate/result/summary.hpp"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -318,10 +317,19 @@ std::vector<std::string> chosen_time_steps_text(const std::vector<model::StepRec
   return lines;
 }
 
-double peak_memory_mb() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+double in_mb(double bytes) { return bytes / (1 << 20); }
+
+/// Of each process; `imbalance`: the longest work over the mean of all.
+nlohmann::json processes_json(const std::vector<model::ProcessRecord>& processes) {
+  nlohmann::json working = nlohmann::json::array(), memory = working;
+  for (const model::ProcessRecord& p : processes) {
+    working.push_back(p.working);
+    memory.push_back(in_mb(p.memory));
+  }
+  return {{"working", working},
+          {"peak_memory_mb", memory},
+          {"slowest", model::slowest(processes)},
+          {"imbalance", model::imbalance(processes)}};
 }
 
 template <int Dim>
@@ -364,13 +372,29 @@ nlohmann::json summary_json(const std::string& model_file,
        {{"search", parts.search},
         {"projection", parts.projection},
         {"evaluation", parts.evaluation}}},
-      {"peak_memory_mb", peak_memory_mb()},
+      {"peak_memory_mb", in_mb(core::most_resident())},
       {"unknowns", result.unknowns}};
   if (result.linear.solutions + result.linear.given_up > 0)
     summary["multigrid"] = {{"solutions", result.linear.solutions},
                             {"iterations", result.linear.iterations},
                             {"given_up", result.linear.given_up}};
+  if (!result.processes.empty()) summary["processes"] = processes_json(result.processes);
   return summary;
+}
+
+std::vector<std::string> processes_text(const std::vector<model::ProcessRecord>& processes) {
+  if (processes.empty()) return {};
+  const std::size_t slowest = model::slowest(processes);
+  double mean = 0, memory = 0;
+  for (const model::ProcessRecord& p : processes) {
+    mean += p.working / static_cast<double>(processes.size());
+    memory = std::max(memory, p.memory);
+  }
+  return {fmt::format(
+      "processes: {}, at work for {:.3g} s each, the slowest ({}) for {:.3g} s: imbalance {:.2f}; "
+      "up to {}",
+      processes.size(), mean, slowest, processes[slowest].working, model::imbalance(processes),
+      core::memory_text(memory))};
 }
 
 std::vector<std::string> linear_systems_text(const la::IterativeWork& work) {

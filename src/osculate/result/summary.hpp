@@ -66,7 +66,8 @@ struct ChosenTimeSteps {
 /// were not; empty without any.
 [[nodiscard]] std::vector<std::string> linear_systems_text(const la::IterativeWork& work);
 
-/// Largest resident memory of this process so far [MB].
-[[nodiscard]] double peak_memory_mb();
+/// Likewise of several processes: the slowest one, and how unevenly they have worked.
+[[nodiscard]] std::vector<std::string> processes_text(
+    const std::vector<model::ProcessRecord>& processes);
 
 }  // namespace osculate::result
