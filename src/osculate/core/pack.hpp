@@ -128,7 +128,7 @@ template <int N>
 template <int N>
 [[nodiscard]] typename BasicPack<N>::Mask eigenvalues_below(const BasicPack<N>& limit, int n,
                                                             BasicPack<N>* matrix) {
-  typename BasicPack<N>::Mask below = limit > -1e300;
+  typename BasicPack<N>::Mask below = BasicPack<N>(1.0) > 0.0;
   for (int j = 0; j < n; ++j) {
     BasicPack<N>* const column = matrix + n * j;
     const BasicPack<N> pivot = limit - column[j], scale = 1 / pivot;

@@ -8,6 +8,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 
 #include "osculate/la/spectra_matrix.hpp"
@@ -123,6 +124,17 @@ bool solves(Problem& p) {
          (p.k * x - b).norm() <= exact * b.norm();
 }
 
+/// Smallest first, as they nearly are.
+void sort(Eigenpairs& pairs) {
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(pairs.values.size()));
+  std::iota(order.begin(), order.end(), 0);
+  const auto value = [&](Eigen::Index i) { return pairs.values[i]; };
+  if (std::ranges::is_sorted(order, {}, value)) return;
+  std::ranges::stable_sort(order, {}, value);
+  pairs.values = pairs.values(order).eval();
+  pairs.vectors = pairs.vectors(Eigen::all, order).eval();
+}
+
 /// Vectors of the space in which M is not zero, normalised; and how good they are. Values that
 /// cannot be told from 0 are 0. Beside vectors without stiffness Lanczos' method loses half of the
 /// digits of others: where rounding does not explain that a value is not v . K v it is that.
@@ -147,9 +159,10 @@ void clean(Problem& p, Eigenpairs& pairs) {
     const double off = (kv - pairs.values[i] * mv).norm(),
                  scale = free ? most.norm()
                               : (std::abs(pairs.values[i]) + std::abs(pairs.shift)) * mv.norm();
-    if (off > 0) pairs.residual = std::max(pairs.residual, off / scale);
+    if (!(off == 0 || off <= pairs.residual * scale)) pairs.residual = off / scale;
     pairs.vectors.col(i) = v;
   }
+  sort(pairs);
 }
 
 /// Eigenvalues up to the last one of the first `wanted` that are not there.

@@ -14,9 +14,9 @@ namespace osculate::la {
 /// Groups of unknowns, as those of a node: group g has the unknowns start[g] to start[g + 1] - 1.
 using GroupStarts = std::vector<Index>;
 
-/// A matrix to be multiplied with often. Rows of a group have their columns in common: entries of a
-/// column stand together, and consecutive columns are named once, so that an entry of three rows
-/// takes little more memory than its value, which is what a product waits for.
+/// A matrix that vectors and matrices are multiplied with. Rows of a group have their columns in
+/// common: entries of a column stand together, and consecutive columns are named once, so that an
+/// entry of three rows takes little more memory than its value, which is what a product waits for.
 ///
 /// Formula    y = A x . Each row is summed up in the order of its columns, so that the bits are
 /// those

@@ -45,7 +45,7 @@ class Multigrid {
   bool refresh(const GroupedRows& a, const std::vector<char>* differs, Halo halo);
   /// One cycle from zero, on own unknowns. False: no numbers came out.
   bool apply(Eigen::VectorXd& rhs_in_solution_out);
-  /// Entries of all matrices over those of the finest.
+  /// Places for entries of all matrices over those of the finest.
   [[nodiscard]] double complexity() const;
   [[nodiscard]] int levels() const;
   void forget();

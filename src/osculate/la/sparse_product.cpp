@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <memory>
+#include <mutex>
 #include <new>
 #include <span>
 #include <utility>
@@ -134,6 +136,28 @@ class SumsOfRows {
   std::vector<Index> blocks_;
 };
 
+/// As many as threads work at once: they are long, and come back empty.
+class SumsOfThreads {
+ public:
+  explicit SumsOfThreads(Index columns) : columns_(columns) {}
+  std::unique_ptr<SumsOfRows> take() {
+    const std::lock_guard<std::mutex> lock(one_at_a_time_);
+    if (free_.empty()) return std::make_unique<SumsOfRows>(columns_);
+    std::unique_ptr<SumsOfRows> out = std::move(free_.back());
+    free_.pop_back();
+    return out;
+  }
+  void put_back(std::unique_ptr<SumsOfRows> sums) {
+    const std::lock_guard<std::mutex> lock(one_at_a_time_);
+    free_.push_back(std::move(sums));
+  }
+
+ private:
+  Index columns_;
+  std::mutex one_at_a_time_;
+  std::vector<std::unique_ptr<SumsOfRows>> free_;
+};
+
 /// Some rows of a group, from `first` on.
 template <Index Count>
 void add_rows(const GroupedRows& a, std::size_t group, Index first, const Runs& runs,
@@ -180,6 +204,7 @@ CompressedRows product(const GroupedRows& a, const CompressedRows& b, core::Crew
   CompressedRows out(a.rows(), b.cols());
   Index* const end = out.outerIndexPtr();
   std::vector<Rows> piece(as_size(at_once));
+  SumsOfThreads of_threads(static_cast<Index>(b.cols()));
   for (Index from = 0; from < groups; from += at_once * length) {
     const std::size_t pieces = as_size(std::min(at_once, (groups - from + length - 1) / length));
     const auto begin = [&](std::size_t p) {
@@ -187,14 +212,15 @@ CompressedRows product(const GroupedRows& a, const CompressedRows& b, core::Crew
     };
     const auto first_row = [&](std::size_t p) { return a.groups()[begin(p)]; };
     crew.share(pieces, [&](std::size_t p) {
-      SumsOfRows sums(static_cast<Index>(b.cols()));
+      std::unique_ptr<SumsOfRows> sums = of_threads.take();
       piece[p].clear();
       for (std::size_t g = begin(p); g < begin(p + 1); ++g) {
         const Index size = a.groups()[g + 1] - a.groups()[g];
         Index i = 0;
-        for (; i + 3 <= size; i += 3) add_rows<3>(a, g, i, runs, b.valuePtr(), sums, piece[p]);
-        for (; i < size; ++i) add_rows<1>(a, g, i, runs, b.valuePtr(), sums, piece[p]);
+        for (; i + 3 <= size; i += 3) add_rows<3>(a, g, i, runs, b.valuePtr(), *sums, piece[p]);
+        for (; i < size; ++i) add_rows<1>(a, g, i, runs, b.valuePtr(), *sums, piece[p]);
       }
+      of_threads.put_back(std::move(sums));
     });
     std::vector<std::size_t> first{as_size(end[first_row(0)])};
     for (std::size_t p = 0; p < pieces; ++p) first.push_back(first[p] + piece[p].value.size());

@@ -76,6 +76,16 @@ bool stresses(const Law& law, std::size_t count, const Several<N, core::Pack>* s
   return std::visit(of, law);
 }
 
+bool at_once(const Law& law) {
+  return std::visit(
+      []<class T>(const T& m) {
+        return requires(const Several<6, core::Pack>& e, Several<6, core::Pack>& s) {
+          stresses_of<6, core::Pack>(m, e, s);
+        };
+      },
+      law);
+}
+
 template <int N>
 core::Pack stored_energies(const Law& law, const Several<N, core::Pack>& strain) {
   core::Pack energy;

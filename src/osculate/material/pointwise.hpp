@@ -31,6 +31,10 @@ template <int N>
                             const std::array<core::Pack, static_cast<std::size_t>(N)>* strain,
                             std::array<core::Pack, static_cast<std::size_t>(N)>* out);
 
+/// Whether these are calculated at once; of other laws one point comes after the other, by its
+/// whole tangent.
+[[nodiscard]] bool at_once(const Law& law);
+
 /// Stored energies per reference volume of such points (energy.hpp).
 template <int N>
 [[nodiscard]] core::Pack stored_energies(

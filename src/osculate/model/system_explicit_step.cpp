@@ -135,8 +135,8 @@ void BasicSystem<Dim>::Impl::Explicit::measure_stable_step() {
   const Fastest before = fastest_before();
   std::vector<Fastest> of_part(batches.parts(), before);
   for_parts([&](std::size_t part, Work& with) {
-    batches.gather(part, motion.position, with.along);
     const auto fours = batches.fours(part), others = batches.alone(part);
+    if (fours.begin < fours.end) batches.gather(part, motion.position, with.along);
     for (std::size_t f = fours.begin; f < fours.end; ++f) look_at_batch(f, with, of_part[part]);
     for (std::size_t i = others.begin; i < others.end; ++i)
       look_at(batches.others()[i], with.block, of_part[part]);

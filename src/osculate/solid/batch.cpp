@@ -255,14 +255,9 @@ bool batch_energy(const Batch<Dim>& batch, const Pack* numbers, const Pack* u, P
   return true;
 }
 
-template <int Dim>
-bool linear_batch(const Batch<Dim>& batch) {
-  return batch.section.kinematics == Kinematics::small && material::linear(batch.section.law);
-}
-
 namespace {
 
-/// About the least distance between opposite sides, as the cell was.
+/// About the least width of a cell, as it was: of a quad4 or hex8 that of the middle lines.
 template <int Dim>
 Pack least_width(const Batch<Dim>& batch, const Pack* numbers) {
   Pack most = Pack::Zero();  // square of its inverse
@@ -290,7 +285,9 @@ template <int Dim>
 bool batch_stiffness(const Batch<Dim>& batch, const Pack* numbers, const Pack* u, Pack* stiffness) {
   constexpr double way = 1e-7;
   const auto dofs = static_cast<std::size_t>(Dim * cell::info(batch.type).nodes);
-  const bool linear = linear_batch(batch);
+  const material::Law& law = batch.section.law;
+  const bool linear = batch.section.kinematics == Kinematics::small && material::linear(law);
+  if (!linear && !material::at_once(law)) return false;
   const Pack d = linear ? Pack(1) : way * least_width(batch, numbers), scale = 1 / d;
   std::array<Pack, CellBasis<Dim>::dofs> at, before;
   at.fill(Pack::Zero());
@@ -316,8 +313,6 @@ template bool batch_energy(const Batch<2>&, const Pack*, const Pack*, Pack&);
 template bool batch_energy(const Batch<3>&, const Pack*, const Pack*, Pack&);
 template std::optional<EightCells> eight_cells(const Batch<2>&);
 template std::optional<EightCells> eight_cells(const Batch<3>&);
-template bool linear_batch(const Batch<2>&);
-template bool linear_batch(const Batch<3>&);
 template std::optional<Batch<2>> batch_of(const Section<2>&, cell::CellType, const Coordinates<2>&);
 template std::optional<Batch<3>> batch_of(const Section<3>&, cell::CellType, const Coordinates<3>&);
 template bool keep_in(const Batch<2>&, const Coordinates<2>&, int, Pack*);

@@ -66,18 +66,16 @@ template <int Dim>
 [[nodiscard]] bool batch_energy(const Batch<Dim>& batch, const core::Pack* numbers,
                                 const core::Pack* u, core::Pack& energy);
 
-/// Whether the forces are linear in the displacements.
-template <int Dim>
-[[nodiscard]] bool linear_batch(const Batch<Dim>& batch);
-
 /// The stiffness of four cells, column by column from their forces: exact where these are linear,
-/// else to seven digits, which is enough for how fast a cell is.
+/// else to about seven digits, less where cells are thin and have turned far; enough for how fast
+/// they are.
 ///
-/// Formula    K_j = (f(u + d e_j) - f(u)) / d , d = 1e-7 of the least width; of linear forces
-///            f(e_j) . The columns of a node are less the sum of all others': what all nodes have
-///            in common makes no forces
+/// Formula    K_j = (f(u + d e_j) - f(u)) / d , d = 1e-7 of the least width as the cell was; of
+///            linear forces f(e_j) - f(0) . The columns of the first node are less the sum of all
+///            others: what all nodes have in common makes no forces
 /// Shapes     stiffness: dofs x dofs
-/// Returns    false: as batch_forces
+/// Returns    false: as batch_forces, and where the law is no `at_once` (pointwise.hpp), whose
+///            tangents take less time
 template <int Dim>
 [[nodiscard]] bool batch_stiffness(const Batch<Dim>& batch, const core::Pack* numbers,
                                    const core::Pack* u, core::Pack* stiffness);
