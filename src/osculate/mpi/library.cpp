@@ -9,22 +9,10 @@
 #include <vector>
 
 #include "osculate/la/shared_solvers.hpp"
+#include "osculate/la/timed.hpp"
 
 namespace osculate::mpi {
 namespace {
-
-/// Adds what it lasts.
-class Waiting {
- public:
-  explicit Waiting(double& sum) : sum_(sum) {}
-  ~Waiting() { sum_ += MPI_Wtime() - begun_; }
-  Waiting(const Waiting&) = delete;
-  Waiting& operator=(const Waiting&) = delete;
-
- private:
-  double& sum_;
-  double begun_ = MPI_Wtime();
-};
 
 class World final : public core::Ranks {
  public:
@@ -37,15 +25,15 @@ class World final : public core::Ranks {
   void sum(std::span<double> values) const override { reduce(values, MPI_SUM); }
   void largest(std::span<double> values) const override { reduce(values, MPI_MAX); }
   void spread(std::span<double> values, int from) const override {
-    const Waiting waiting(seconds_);
+    const la::Timed timed(seconds_);
     MPI_Bcast(values.data(), static_cast<int>(values.size()), MPI_DOUBLE, from, MPI_COMM_WORLD);
   }
   void spread(std::span<int> values, int from) const override {
-    const Waiting waiting(seconds_);
+    const la::Timed timed(seconds_);
     MPI_Bcast(values.data(), static_cast<int>(values.size()), MPI_INT, from, MPI_COMM_WORLD);
   }
   void gather(std::span<const int> mine, std::span<int> all) const override {
-    const Waiting waiting(seconds_);
+    const la::Timed timed(seconds_);
     const int size = static_cast<int>(mine.size());
     std::vector<int> sizes(static_cast<std::size_t>(count_)), starts(sizes.size());
     MPI_Gather(&size, 1, MPI_INT, sizes.data(), 1, MPI_INT, 0, MPI_COMM_WORLD);
@@ -55,7 +43,7 @@ class World final : public core::Ranks {
   }
   void exchange(std::span<const double> values, std::span<const int> to, std::span<double> received,
                 std::span<const int> from) const override {
-    const Waiting waiting(seconds_);
+    const la::Timed timed(seconds_);
     std::vector<MPI_Request> open;
     const auto each = [&](std::span<const int> counts, const auto& begin) {
       int at = 0;
@@ -80,7 +68,7 @@ class World final : public core::Ranks {
 
  private:
   void reduce(std::span<double> values, MPI_Op by) const {
-    const Waiting waiting(seconds_);
+    const la::Timed timed(seconds_);
     MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, by,
                   MPI_COMM_WORLD);
   }
